@@ -123,8 +123,10 @@ static void peaks_update(circuit_shot *s)
     circuit_shot_heat_update(s, &d);
     const double top = cubic_top(I, slope, s->last_current, s->last_slope, h);
     s->result.peak_current = fmax(s->result.peak_current, top);
-    if (s->model.phase != CIRCUIT_SHOT_MOVING) return;
+    if (s->model.phase == CIRCUIT_SHOT_LEFT) return;
     const shot_forces f = circuit_shot_forces_at(&s->model, &d, circuit_shot_z(s));
+    circuit_shot_lead_face_update(s, &f);
+    if (s->model.phase == CIRCUIT_SHOT_HELD) return;
     circuit_shot_limits_update(s, &f);
     s->result.peak_acceleration = fmax(s->result.peak_acceleration, f.net / circuit_shot_z(s)[Y_MASS]);
 }

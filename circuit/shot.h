@@ -164,6 +164,8 @@ typedef struct {
     double mass;                    /* of the armature now [kg] */
     double rail_temperature;        /* just ahead of the armature: as before the shot [K] */
     double armature_temperature;    /* of the contact face, estimate (C-7), at most melting [K] */
+    double lead_face_temperature;   /* of the lead face, to which the current diffuses, (C-28); NAN: throat_area
+                                       is not given [K] */
     double film_temperature;        /* of the melt on it, estimate (C-16) [K] */
     double film_thickness;          /* of that melt, one face [m] */
     double contact_spread;          /* length of the contact over which the current enters, (C-22) [m] */

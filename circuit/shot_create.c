@@ -257,6 +257,7 @@ static void state_fill(circuit_shot *s, const circuit_shot_config *c)
     if (z[Y_V] > 0.0 || loose) m->phase = CIRCUIT_SHOT_MOVING;
     m->next_site = s->n_sites > 0 ? s->sites[0].position : INFINITY;
     circuit_shot_limits_start(s);
+    circuit_shot_lead_face_start(s);
     const circuit_shot_ledger l = circuit_shot_ledger_now(s);
     s->start_energy = l.capacitors + l.coils + l.cables + l.rotors + l.kinetic;
     s->result = (circuit_shot_summary){

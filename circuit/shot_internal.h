@@ -6,6 +6,7 @@
 #ifndef BREECH_CIRCUIT_SHOT_INTERNAL_H
 #define BREECH_CIRCUIT_SHOT_INTERNAL_H
 
+#include "circuit/armature/lead_face.h"
 #include "circuit/dae.h"
 #include "circuit/rails/rails_heat.h"
 #include "circuit/shot_model.h"
@@ -48,6 +49,7 @@ struct circuit_shot {
     double start_energy, exit_action;
     circuit_shot_rails rails; /* their section and metal, as given */
     circuit_shot_limits limits;
+    circuit_lead_face lead_face;
     double worn, wear_rate, worn_until; /* velocity skin effect: thickness off the trailing edge [m], [m/s], [s] */
     circuit_rails_heat heat;
     double rail_capacity; /* of all rails [J/K/m] */
@@ -65,7 +67,10 @@ circuit_shot_ledger circuit_shot_ledger_now(const circuit_shot *s);
 
 /* ---- temperatures and limits; *st as far as it is filled before them ---- */
 
-double circuit_shot_face_temperature(const circuit_shot *s, const shot_forces *f);                             /* [K] */
+double circuit_shot_face_temperature(const circuit_shot *s, const shot_forces *f); /* [K] */
+void circuit_shot_lead_face_start(circuit_shot *s);
+void circuit_shot_lead_face_update(circuit_shot *s, const shot_forces *f); /* after every accepted step */
+double circuit_shot_lead_face_temperature(const circuit_shot *s);          /* NAN: no throat_area [K] */
 double circuit_shot_film_thickness(const circuit_shot *s, const shot_forces *f, const circuit_shot_state *st); /* [m] */
 double circuit_shot_film_temperature(const circuit_shot *s, const shot_forces *f,
                                      const circuit_shot_state *st);                                       /* [K] */

@@ -17,6 +17,47 @@ double circuit_shot_face_temperature(const circuit_shot *s, const shot_forces *f
     return fmin(s->armature_temperature + circuit_shot_face_rise(&s->model, f, circuit_shot_z(s)), melting);
 }
 
+/* The metal's resistivity and its rise at the temperature before the shot [ohm m, 1/K]. */
+typedef struct {
+    double resistivity, rise;
+} before_shot;
+
+static before_shot before(const circuit_shot_armature *a)
+{
+    const double warm = 1.0 + a->resistivity_coefficient * (a->initial_temperature - 293.15);
+    return (before_shot){ a->resistivity * warm, a->resistivity_coefficient / warm };
+}
+
+/* ---- the lead face ---- */
+
+void circuit_shot_lead_face_start(circuit_shot *s)
+{
+    const circuit_shot_armature *a = &s->model.armature;
+    const double width = isnan(a->contact_width) ? s->rails.height : a->contact_width;
+    s->lead_face = circuit_lead_face_start(a->throat_area / width, before(a).resistivity);
+}
+
+void circuit_shot_lead_face_update(circuit_shot *s, const shot_forces *f)
+{
+    const circuit_shot_armature *a = &s->model.armature;
+    if (isnan(a->throat_area)) return;
+    circuit_lead_face_advance(&s->lead_face, s->t, (f->I - f->shunt) * s->lead_face.length / a->throat_area);
+}
+
+/* What the current that has come through to it has heated, without loss: rho c dT = rho_e (1 + alpha (T - T_0)) J^2 dt
+ * [K] */
+double circuit_shot_lead_face_temperature(const circuit_shot *s)
+{
+    const circuit_shot_armature *a = &s->model.armature;
+    const before_shot metal = before(a);
+    const double heat = metal.resistivity * s->lead_face.action / (a->density * a->specific_heat);
+    const double rise = metal.rise > 0.0 ? expm1(metal.rise * heat) / metal.rise : heat;
+    if (isnan(a->throat_area)) return NAN;
+    return fmin(a->initial_temperature + rise, fmax(a->melting_temperature, a->initial_temperature));
+}
+
+/* ---- the contact ---- */
+
 /* Heat per area of one face, both bodies' shares together [W/m^2]. */
 static double contact_heat(const circuit_shot *s, const shot_forces *f, double v)
 {
@@ -77,10 +118,10 @@ double circuit_shot_rail_behind_temperature(const circuit_shot *s, const shot_fo
  * rho c/(rho_e alpha) ln(1 + alpha (T_m - T_0)), rho_e and alpha at T_0                     (C-18) [A^2 s/m^4] */
 static double melt_action(const circuit_shot_armature *a)
 {
-    const double warm = 1.0 + a->resistivity_coefficient * (a->initial_temperature - 293.15);
-    const double alpha = a->resistivity_coefficient / warm, rise = a->melting_temperature - a->initial_temperature;
-    const double span = alpha > 0.0 ? log1p(alpha * rise) / alpha : rise;
-    return a->density * a->specific_heat * span / (a->resistivity * warm);
+    const before_shot metal = before(a);
+    const double rise = a->melting_temperature - a->initial_temperature;
+    const double span = metal.rise > 0.0 ? log1p(metal.rise * rise) / metal.rise : rise;
+    return a->density * a->specific_heat * span / metal.resistivity;
 }
 
 /* A load moving over a beam (bending stiffness E I, mass per length m) on a bed of stiffness k outruns its bending

@@ -58,7 +58,9 @@ const base_param circuit_shot_armature_params[] = {
              "at 293.15 K, for the action that melts it; not given: the material's"),
     ARMATURE(resistivity_coefficient, "1/K", 2.0e-3, 0.0, 0.1, "relative rise of the resistivity"),
     ARMATURE(leg_area, "m^2", OPTIONAL, 1e-9, 10.0, "cross-section of one leg: warned about when its metal melts"),
-    ARMATURE(throat_area, "m^2", OPTIONAL, 1e-9, 10.0, "cross-section of the throat: warned about alike"),
+    ARMATURE(throat_area, "m^2", OPTIONAL, 1e-9, 10.0,
+             "cross-section of the throat, which the current crosses: warned about alike; tells how warm its lead face "
+             "gets"),
     ARMATURE(wear_thickness, "m", OPTIONAL, 1e-6, 1.0,
              "that wear may take off one face, warned about beyond; not given: leg_thickness, if the armature wears"),
     PARAMS_END

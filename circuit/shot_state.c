@@ -73,6 +73,7 @@ circuit_shot_state circuit_shot_now(const circuit_shot *s)
     st.rail_temperature = s->rail_temperature;
     st.ledger = circuit_shot_ledger_now(s);
     st.armature_temperature = circuit_shot_face_temperature(s, &f);
+    st.lead_face_temperature = circuit_shot_lead_face_temperature(s);
     st.film_thickness = circuit_shot_film_thickness(s, &f, &st);
     st.film_temperature = circuit_shot_film_temperature(s, &f, &st);
     st.rail_behind_temperature = circuit_shot_rail_behind_temperature(s, &f, &st);

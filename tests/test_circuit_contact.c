@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The armature's contact: how its current crowds (circuit/armature/contact.h), the film it slides on
- * (circuit/armature/film.h), both in a shot. */
+ * (circuit/armature/film.h), the current's way to its lead face (circuit/armature/lead_face.h), all in a shot. */
 #include "base/constants.h"
 #include "circuit/armature/contact.h"
 #include "circuit/armature/film.h"
+#include "circuit/armature/lead_face.h"
 #include "tests/circuit_common.h"
 
 #include <setjmp.h>
@@ -11,6 +12,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -321,13 +323,106 @@ static void wear_by_trapezes(void **state)
     circuit_shot_free(s);
 }
 
+/* ---- the lead face ---- */
+
+enum { FRONT_CELLS = 60 };
+
+/* dB/dt = D d2B/dx2 by small explicit steps; B = sheet on the rear, 0 on the lead face, in A/m. */
+typedef struct {
+    double length, diffusivity, t, field[FRONT_CELLS + 1], action;
+} lead_face_by_cells;
+
+static void advance_by_cells(lead_face_by_cells *f, double t, double sheet)
+{
+    const double dx = f->length / FRONT_CELLS, from = f->field[0], since = f->t;
+    const int steps = (int)ceil((t - since) / (0.4 * dx * dx / f->diffusivity));
+    const double h = (t - since) / steps, share = f->diffusivity * h / (dx * dx);
+    for (int n = 1; n <= steps; n++) {
+        double next[FRONT_CELLS + 1] = { from + (sheet - from) * n / steps };
+        for (int i = 1; i < FRONT_CELLS; i++)
+            next[i] = f->field[i] + share * (f->field[i + 1] - 2.0 * f->field[i] + f->field[i - 1]);
+        memcpy(f->field, next, sizeof next);
+        const double J = (4.0 * f->field[FRONT_CELLS - 1] - f->field[FRONT_CELLS - 2]) / (2.0 * dx);
+        f->action += h * J * J;
+    }
+    f->t = t;
+}
+
+/* A pulse that rises within a fifth of the time l^2/D and falls again: the lead face's current and action by cells. */
+static void current_comes_to_the_lead_face(void **state)
+{
+    (void)state;
+    const double l = 16.5e-3, resistivity = 5.15e-8, D = resistivity / MU0, time = l * l / D;
+    circuit_lead_face f = circuit_lead_face_start(l, resistivity);
+    lead_face_by_cells by = { .length = l, .diffusivity = D };
+    assert_true(f.action == 0.0 && f.density == 0.0);
+    for (int k = 1; k <= 2000; k++) {
+        const double t = 1e-3 * k * time, sheet = 40e6 * fmin(5.0 * t / time, 1.04 - 0.2 * t / time);
+        circuit_lead_face_advance(&f, t, sheet);
+        advance_by_cells(&by, t, sheet);
+        if (k == 50) assert_true(f.density < 0.01 * sheet / l); /* it has hardly begun to come through */
+        if (k % 200 == 0) assert_near(f.action, by.action, 0.01 * by.action + 1e-6 * sheet * sheet / (l * l) * time);
+    }
+    /* Long after, it lags behind what falls evenly: J l = K - l^2/(6 D) dK/dt, here dK/dt = -0.2 of 0.64. */
+    assert_near(f.density * l / f.sheet, 1.0 + 0.2 / 0.64 / 6.0, 1e-3);
+    const circuit_lead_face before = f;
+    circuit_lead_face_advance(&f, f.t, 2.0 * f.sheet); /* no time, nothing happens */
+    assert_memory_equal(&f, &before, sizeof f);
+}
+
+typedef struct {
+    lead_face_by_cells by;
+    double width, last;
+} lead_face_notes;
+
+static bool follow_lead_face(void *user, const circuit_shot *s, const circuit_shot_state *st)
+{
+    (void)s;
+    lead_face_notes *n = user;
+    if (st->phase != CIRCUIT_SHOT_LEFT && st->t > n->by.t) advance_by_cells(&n->by, st->t, st->current / n->width);
+    if (st->phase != CIRCUIT_SHOT_LEFT) n->last = st->lead_face_temperature;
+    return true;
+}
+
+/* In a shot: rho c dT = rho_e (1 + alpha (T - T_0)) J^2 dt; none without a throat; melting is the most. */
+static void lead_face_warms_up(void **state)
+{
+    (void)state;
+    circuit_shot_module m = unit_200kJ(8, 0.0);
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+    c.armature.initial_temperature = 320.0;
+    const double T0 = 320.0, warm = 1.0 + 2e-3 * (T0 - 293.15), alpha = 2e-3 / warm;
+    double last[3];
+    for (int k = 0; k < 3; k++) {
+        c.armature.throat_area = (const double[]){ NAN, 4e-4, 1e-5 }[k];
+        lead_face_notes n = { .by = { .length = c.armature.throat_area / c.rails.height,
+                                      .diffusivity = 5.15e-8 * warm / MU0 },
+                              .width = c.rails.height };
+        if (k != 1) n.by.t = INFINITY;
+        const circuit_shot_sink sink = { NULL, follow_lead_face, &n };
+        circuit_shot *s = NULL;
+        OK(circuit_shot_create(&c, &s));
+        OK(circuit_shot_advance(s, INFINITY, &sink));
+        last[k] = n.last;
+        if (k == 1) {
+            const double heat = 5.15e-8 * warm * n.by.action / (2804.0 * 848.0);
+            print_message("lead face at exit %.1f K, by cells %.1f K\n", n.last, T0 + expm1(alpha * heat) / alpha);
+            assert_near(n.last - T0, expm1(alpha * heat) / alpha, 0.02 * (n.last - T0));
+        }
+        circuit_shot_free(s);
+    }
+    assert_true(isnan(last[0]) && last[1] > T0 + 20.0 && last[1] < 740.0 && last[2] == 750.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(current_crowds),           cmocka_unit_test(spread_by_speed_and_current),
         cmocka_unit_test(film_balances_its_heat),   cmocka_unit_test(film_bears_and_shears),
         cmocka_unit_test(melting_changes_friction), cmocka_unit_test(current_crowds_in_a_shot),
-        cmocka_unit_test(wear_by_trapezes),
+        cmocka_unit_test(wear_by_trapezes),         cmocka_unit_test(current_comes_to_the_lead_face),
+        cmocka_unit_test(lead_face_warms_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

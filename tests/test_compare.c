@@ -1300,6 +1300,28 @@ static void test_scatter_of_dying(void **state)
     case_free(c);
 }
 
+/* Grooves die four times as steeply as they grow, and the search's slope knows only how they grow: a grid whose groove
+ * dies at both scenes is placed the later, the further its scene lies below.  So by the grids the scratch's threshold
+ * lies above the gouge's; but what gouges grows. */
+static void test_scatter_keeps_order(void **state)
+{
+    (void)state;
+    breech_case *c = close_search(HEAD "sites: [{position: 2.9 m}]\n");
+    c->study.threshold_ensemble = 4;
+    c->study.scratch = true;
+    tear_drops = 120.0, growth_dies = 4.0;
+    onset_answer a = studied(c, "order", status_ok());
+    tear_drops = 0.0, growth_dies = 1.0;
+    const onset_result *r = &a.result;
+    const grain_family *f = &a.grains.family[0];
+    print_message("gouge %.0f +- %.1f, scratch %.0f +- %.1f m/s\n", r->threshold_velocity, r->threshold_deviation,
+                  r->scratch_velocity, r->scratch_deviation);
+    assert_true(f->scratches.reference.velocity < f->surface.reference.velocity + 1e-9);
+    assert_true(f->scratch_scatter.more > 0.0 && fabs(r->scratch_velocity - r->threshold_velocity) < 1e-6);
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
 /* Craters as short as tear-drops at any velocity, and longer with it: each grid gouges from where its grooves grow. */
 static void test_scatter_of_short(void **state)
 {
@@ -1314,6 +1336,36 @@ static void test_scatter_of_short(void **state)
     assert_true(r->threshold_deviation > 50.0);
     assert_true(fabs(r->threshold_deviation - r->scratch_deviation) < 1e-6);
     assert_true(fabs(r->threshold_velocity - r->scratch_velocity) < 1.0);
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
+/* Where the section that carries the current is given, a scene's armature is as warm as its lead face is where the shot
+ * has the scene's velocity, in steps of 5 K; a temperature that is given is taken everywhere. */
+static void test_warm_lead_face(void **state)
+{
+    (void)state;
+    breech_case *c = close_search(HEAD "sites: [{position: 0.9 m}, {position: 2.9 m}]\n");
+    c->armature.throat_area = 3e-4, c->projectile.temperature = NAN;
+    onset_answer a = studied(c, "lead-face", status_ok());
+    const onset_result *r = &a.result;
+    double coldest = INFINITY, warmest = 0.0;
+    for (int i = 0; i < r->n_scenes; i++) {
+        const onset_scene *e = &r->scene[i];
+        trace_point at;
+        gouge_trace_at_velocity(&a.flown, e->velocity, &at);
+        assert_true(fabs(e->armature_temperature - at.lead_face_temperature) <= 2.5);
+        assert_true(fmod(e->armature_temperature, 5.0) == 0.0);
+        coldest = fmin(coldest, e->armature_temperature), warmest = fmax(warmest, e->armature_temperature);
+    }
+    print_message("%g .. %g K\n", coldest, warmest);
+    assert_true(r->n_scenes > 4 && coldest > 294.0 && warmest > coldest + 20.0);
+    assert_true(r->site[0].lead_face_temperature > 293.15 &&
+                r->site[1].lead_face_temperature > r->site[0].lead_face_temperature);
+    study_onset_answer_free(&a);
+    c->projectile.temperature = 310.0;
+    a = studied(c, "lead-face-given", status_ok());
+    for (int i = 0; i < r->n_scenes; i++) assert_true(r->scene[i].armature_temperature == 310.0);
     study_onset_answer_free(&a);
     case_free(c);
 }
@@ -1754,6 +1806,8 @@ int main(void)
         cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_scatter_of_dying),
         cmocka_unit_test(test_scatter_of_short),
+        cmocka_unit_test(test_scatter_keeps_order),
+        cmocka_unit_test(test_warm_lead_face),
         cmocka_unit_test(test_range),
         cmocka_unit_test(test_closing_line_of_sites),
         cmocka_unit_test(test_shots_warm_the_rail),

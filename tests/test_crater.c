@@ -358,6 +358,12 @@ static void test_gouge(void **state)
     c = measured_once(-2.0, 0.05, tear_drop, &strict);
     assert_int_equal(c.class, DAMAGE_SCRATCH);
     gouge_crater_free(&c);
+    crater_spec deeper = spec; /* a depth that is given: the tear-drop is narrower there */
+    deeper.measuring_depth = 2.0 * spec.cell;
+    c = measured_once(-2.0, 0.05, tear_drop, &deeper);
+    assert_true(c.measuring_depth == deeper.measuring_depth);
+    assert_near(c.width / MM, 2.0 * drop_half_width(DROP_L) * sqrt(1.0 - 0.2 / 0.5), 0.05);
+    gouge_crater_free(&c);
     crater_spec cut = spec; /* the map ends within the crater */
     cut.x_hi = 4.0 * MM;
     c = measured_once(-2.0, 0.05, tear_drop, &cut);

@@ -41,7 +41,11 @@ static breech_case *read_case(const char *const *sets)
 
 static site_state state_at(const breech_case *c, double velocity)
 {
-    return (site_state){ .grain = c->sites.item[0], .reached = true, .velocity = velocity, .contact_pressure = 75e6 };
+    return (site_state){ .grain = c->sites.item[0],
+                         .reached = true,
+                         .velocity = velocity,
+                         .contact_pressure = 75e6,
+                         .lead_face_temperature = 300.0 };
 }
 
 static case_impact impact_at(const breech_case *c, double velocity, double cells)
@@ -88,6 +92,13 @@ static void test_key_parts(void **state)
         breech_case *other = read_case((const char *const[]){ idle[i], NULL });
         if (key_at(other, 1500.0, 3.0) != base) fail_msg("%s changes the key", idle[i]);
         case_free(other);
+    }
+    assert_true(isnan(c->projectile.temperature)); /* the shot's, which has been told */
+    for (int warmer = 0; warmer < 2; warmer++) {
+        breech_case *warm = read_case(
+            (const char *const[]){ warmer ? "armature.temperature=305 K" : "armature.temperature=300 K", NULL });
+        assert_true((key_at(warm, 1500.0, 3.0) == base) == !warmer);
+        case_free(warm);
     }
     mpm_material *copper = (mpm_material *)case_material(&c->materials, c->rail.material);
     copper->damage_D1 = nextafter(copper->damage_D1, INFINITY); /* the last bit of one constant */

@@ -34,7 +34,8 @@ static const base_param layer_params[] = {
 
 static const base_param rail_params[] = {
     PARAM_STRING(case_rail, material, NULL, "the rail's material"),
-    PARAM_DOUBLE(case_rail, temperature, "K", 293.0, 4.0, 2000.0, "rail ahead of the armature: initial or preheat"),
+    PARAM_DOUBLE(case_rail, temperature, "K", CASE_ROOM_TEMPERATURE, 4.0, 2000.0,
+                 "rail ahead of the armature: initial or preheat"),
     PARAM_DOUBLE(case_rail, yield_scale, "1", 1.0, 0.01, 100.0,
                  "hardening of the whole rail: factor on the yield stress, and on the hardness in the screen"),
     PARAM_DOUBLE(case_rail, cold_work, "1", OPTIONAL, 0.0, 100.0,
@@ -56,7 +57,9 @@ static const base_param projectile_params[] = {
                  "full width across the rail; not given: rail.height"),
     PARAM_DOUBLE(case_projectile, chamfer_height, "m", REQUIRED, 0.0, 1.0,
                  "height of the lead face, normal to the rail; 0 = a square front"),
-    PARAM_DOUBLE(case_projectile, temperature, "K", 293.0, 4.0, 2000.0, "of the armature in the scene"),
+    PARAM_DOUBLE(case_projectile, temperature, "K", OPTIONAL, 4.0, 2000.0,
+                 "of the armature in the scene; not given: its lead face's, as the shot has heated it; 293 K without "
+                 "throat_area"),
     PARAM_DOUBLE(case_projectile, yield_scale, "1", 1.0, 0.01, 100.0,
                  "factor on its flow stress, and on the hardness in the screen"),
     PARAMS_END,
@@ -152,6 +155,10 @@ static const base_param scene_params[] = {
     MPM_METHOD_PARAMS(case_scene),
     PARAM_BOOL(case_scene, damage, 1, "(M-2) Johnson-Cook damage in all bodies"),
     PARAM_BOOL(case_scene, half_model, 1, "compute z >= 0 and mirror it"),
+    PARAM_DOUBLE(
+        case_scene, measuring_depth, "m", OPTIONAL, 1e-7, 0.01,
+        "depth at which a crater's length and width are taken; not given: a sixth of the grain's radius, or half "
+        "a cell if that is more"),
     PARAM_DOUBLE(case_scene, limit_widening, "1", 1.5, 1.0, 10.0,
                  "widening from which a crater is a gouge by its shape"),
     PARAM_DOUBLE(case_scene, limit_severity, "1", 0.0, -10.0, 1e4,

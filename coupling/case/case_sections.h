@@ -59,6 +59,8 @@ typedef struct {
     case_layers layers;
 } case_rail;
 
+#define CASE_ROOM_TEMPERATURE 293.0 /* of what is not said to be warmer [K] */
+
 /* The armature's body in the scene: half a U, one leg on one rail. */
 typedef struct {
     char material[BASE_PARAM_TEXT_SIZE];
@@ -69,7 +71,7 @@ typedef struct {
     double half_bore;      /* from the rail's surface to the middle of the bore [m] */
     double width;          /* full width across the rail [m] */
     double chamfer_height; /* of the lead face, normal to the rail [m] */
-    double temperature;    /* [K] */
+    double temperature;    /* NAN: the shot's, or that before it in `breech scene` [K] */
     double yield_scale;    /* factor on its flow stress, and on the hardness in the screen [1] */
 } case_projectile;
 
@@ -194,6 +196,7 @@ typedef struct {
     bool heat_by_plastic_work;      /* (M-4); to here */
     bool damage;                    /* Johnson-Cook damage in all bodies */
     bool half_model;                /* only z >= 0, mirrored */
+    double measuring_depth;         /* from which a crater counts; NAN: crater.h's [m] */
     double limit_widening;          /* of a crater that is a gouge by its shape [1] */
     double limit_severity;          /* the same [1] */
     double limit_length_over_width; /* at its second gauge: a gouge is not longer [1] */

@@ -172,7 +172,7 @@ void gouge_crater_free(crater *c)
 
 double gouge_crater_measuring_depth(const crater_spec *spec)
 {
-    return fmax(spec->particle_radius / 6.0, 0.5 * spec->cell);
+    return spec->measuring_depth > 0.0 ? spec->measuring_depth : fmax(spec->particle_radius / 6.0, 0.5 * spec->cell);
 }
 
 double gouge_crater_length_over_width(const crater *c)

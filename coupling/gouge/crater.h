@@ -14,8 +14,8 @@
  * whatever the sizes of its points; a line that meets nothing of the rail's lower half is left out (the rail ends
  * there), depth 0.  Choose `cell` about the fine grid's cell.
  *
- * Measures, at the measuring depth d_m = max(particle_radius / 6, cell / 2), the same for three cells a radius and all
- * finer ones, d the depth, downstream = +x:
+ * Measures, at the measuring depth d_m, unless given max(particle_radius / 6, cell / 2), the same for three cells a
+ * radius and all finer ones, d the depth, downstream = +x:
  *   the crater is the cells with d > d_m that hang together (by edge or corner), with every other such patch that has a
  *   tenth of its volume; its outline is where d = d_m between cell centres, linearly;
  *   length, width     extents of the outline along x, and across z at its widest
@@ -60,6 +60,7 @@ typedef struct {
     double x_lo, x_hi, z_hi;                 /* region to map: x_lo..x_hi, z 0..z_hi (mirrored) or -z_hi..z_hi [m] */
     bool mirrored;                           /* the scene is the half z >= 0: the map is doubled */
     double cell;                             /* size of a map cell [m] */
+    double measuring_depth;                  /* d_m; 0: as it comes [m] */
     double particle_radius, particle_height; /* of the grain, which sat at z = 0 [m] */
     double particle_volume, particle_area;   /* of the whole grain [m3, m2] */
     double limit_widening;                   /* 1.5 */

@@ -47,6 +47,7 @@ case_impact gouge_impact_at(const case_impact *from, const site_state *state, do
     at.scene.velocity = state->velocity;
     at.scene.contact_pressure = state->contact_pressure;
     at.scene.cells_per_radius = cells_per_radius;
+    if (isnan(at.armature.temperature)) at.armature.temperature = state->lead_face_temperature;
     return at;
 }
 
@@ -336,7 +337,8 @@ static status add_bodies(const case_impact *c, const layout *l, gouge_scene *g)
         mpm_body *b = &s->body[i];
         CHECK(b->material, STATUS_BAD_INPUT, "scene: body `%s` has no material", b->name);
         TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
-        b->temperature = i == g->armature ? c->armature.temperature : c->rail.temperature;
+        b->temperature =
+            i == g->armature ? host_number_or(c->armature.temperature, CASE_ROOM_TEMPERATURE) : c->rail.temperature;
         b->damage = c->scene.damage;
     }
     return status_ok();
@@ -515,6 +517,7 @@ static crater_spec spec_of(const case_impact *c, const gouge_scene *of)
                          .z_hi = fmin(of->beside, MAP_BESIDE * g->radius),
                          .mirrored = c->scene.half_model,
                          .cell = of->cell,
+                         .measuring_depth = host_number_or(c->scene.measuring_depth, 0.0),
                          .particle_radius = g->radius,
                          .particle_height = g->height,
                          .limit_widening = c->scene.limit_widening,

@@ -19,11 +19,14 @@ static void warn_of_limits(session *s, const circuit_shot_limits *l)
         run_session_warn(
             s, "transition: from x = %.3g m on the contact force is below 1 gram-force per ampere (least %.2f)",
             l->contact_position, l->contact_ratio);
-    if (l->leg_action > 1.0 || l->throat_action > 1.0)
+    if (l->leg_action > 1.0)
+        run_session_warn(s,
+                         "transition: the action melts the armature's leg (%.2f of what melts it), from x = %.3g m on",
+                         l->leg_action, x);
+    if (l->throat_action > 1.0)
         run_session_warn(
-            s,
-            "transition: the action melts the armature (leg %.2f, throat %.2f of what melts them), from x = %.3g m on",
-            l->leg_action, l->throat_action, x);
+            s, "transition: the action melts the armature's throat (%.2f of what melts it), from x = %.3g m on",
+            l->throat_action, x);
     if (l->wear_share > 1.0)
         run_session_warn(
             s, "transition: wear takes %.2f times armature.wear_thickness, all of it by x = %.3g m at the earliest",

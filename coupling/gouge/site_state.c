@@ -22,9 +22,17 @@ void gouge_shot_outcome_free(shot_outcome *o)
 static trace_point between(const trace_point *a, const trace_point *b, double share)
 {
 #define BETWEEN(member) .member = a->member + share * (b->member - a->member)
-    return (trace_point){ BETWEEN(t),         BETWEEN(x),        BETWEEN(v),         BETWEEN(contact_pressure),
-                          BETWEEN(pressure),  BETWEEN(friction), BETWEEN(rail_flux), BETWEEN(rail_sheet),
-                          BETWEEN(film_rise), BETWEEN(melted) };
+    return (trace_point){ BETWEEN(t),
+                          BETWEEN(x),
+                          BETWEEN(v),
+                          BETWEEN(contact_pressure),
+                          BETWEEN(lead_face_temperature),
+                          BETWEEN(pressure),
+                          BETWEEN(friction),
+                          BETWEEN(rail_flux),
+                          BETWEEN(rail_sheet),
+                          BETWEEN(film_rise),
+                          BETWEEN(melted) };
 #undef BETWEEN
 }
 
@@ -112,8 +120,7 @@ static void arrive(recorder *r, const circuit_shot_event *e)
     s->velocity = e->state.v;
     s->current = e->state.current;
     s->contact_pressure = pressure_of(r, &e->state);
-    s->rail_temperature = e->state.rail_temperature;
-    s->armature_temperature = e->state.armature_temperature;
+    s->lead_face_temperature = e->state.lead_face_temperature;
 }
 
 static bool on_event(void *user, circuit_shot *s, const circuit_shot_event *e)
@@ -146,6 +153,7 @@ static status keep_trace(recorder *r, const circuit_shot_state *s)
                        .x = s->x,
                        .v = s->v,
                        .contact_pressure = pressure_of(r, s),
+                       .lead_face_temperature = s->lead_face_temperature,
                        .pressure = s->contact_pressure,
                        .friction = s->friction_coefficient,
                        .rail_flux = s->rail_flux,
@@ -218,7 +226,7 @@ static status prepare(const case_flight *f, shot_outcome *out, double **position
     out->n_sites = f->n_sites;
     for (int i = 0; i < f->n_sites; i++) {
         (*positions)[i] = f->site[i].position;
-        out->site[i] = (site_state){ f->site[i], false, NAN, NAN, NAN, NAN, NAN, NAN };
+        out->site[i] = (site_state){ f->site[i], false, NAN, NAN, NAN, NAN, NAN };
     }
     return status_ok();
 }

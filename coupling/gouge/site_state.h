@@ -14,26 +14,25 @@
 /* What an impact scene is made from. */
 typedef struct {
     case_site grain;
-    bool reached;            /* the armature comes there; if not, all below is NaN */
-    double time;             /* of arrival [s] */
-    double velocity;         /* [m/s] */
-    double current;          /* [A] */
-    double contact_pressure; /* contact force of one face over the face, gouge_face_area [Pa] */
-    double rail_temperature; /* as the circuit has it ahead of the armature; scenes take case.rail's [K] */
-    double
-        armature_temperature; /* of its contact face, a film thinner than a cell; scenes take case.projectile's [K] */
+    bool reached;                 /* the armature comes there; if not, all below is NaN */
+    double time;                  /* of arrival [s] */
+    double velocity;              /* [m/s] */
+    double current;               /* [A] */
+    double contact_pressure;      /* contact force of one face over the face, gouge_face_area [Pa] */
+    double lead_face_temperature; /* NAN: no armature.throat_area [K] */
 } site_state;
 
 /* The shot at one accepted step. */
 typedef struct {
     double t, x, v;          /* [s, m, m/s] */
     double contact_pressure; /* on gouge_face_area [Pa] */
-    double pressure;         /* on contact_length x contact_width, as the circuit has it [Pa] */
-    double friction;         /* coefficient [1] */
-    double rail_flux;        /* of the contact's heat into one rail's face [W/m^2] */
-    double rail_sheet;       /* current on a metre of that face's height [A/m] */
-    double film_rise;        /* of the armature's face, with its film, over the rail ahead [K] */
-    double melted;           /* mass that both faces have lost to melting so far [kg] */
+    double lead_face_temperature;
+    double pressure;   /* on contact_length x contact_width, as the circuit has it [Pa] */
+    double friction;   /* coefficient [1] */
+    double rail_flux;  /* of the contact's heat into one rail's face [W/m^2] */
+    double rail_sheet; /* current on a metre of that face's height [A/m] */
+    double film_rise;  /* of the armature's face, with its film, over the rail ahead [K] */
+    double melted;     /* mass that both faces have lost to melting so far [kg] */
 } trace_point;
 
 /* What a gouge takes from the armature at its site. */

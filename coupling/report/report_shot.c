@@ -111,6 +111,7 @@ static const panel panels[] = {
       "temperature",
       "K",
       { { "armature_temperature", "armature, face" },
+        { "lead_face_temperature", "armature, lead face" },
         { "film_temperature", "melt (estimate)" },
         { "rail_behind_temperature", "rail behind (estimate)" },
         { "rail_temperature", "rail ahead" } },
@@ -120,10 +121,11 @@ static const panel panels[] = {
 };
 enum { PANELS = sizeof panels / sizeof *panels };
 
+/* Or not known. */
 static bool is_zero(const double *y, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        if (y[i] != 0.0) return false;
+        if (y[i] != 0.0 && !isnan(y[i])) return false;
     return true;
 }
 

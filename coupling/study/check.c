@@ -47,7 +47,8 @@ static case_impact scene_at(const case_onset *c, const case_site *grain, double 
     const case_impact probe = study_family_probe(c);
     const site_state state = { .grain = *grain,
                                .velocity = velocity,
-                               .contact_pressure = probe.scene.contact_pressure };
+                               .contact_pressure = probe.scene.contact_pressure,
+                               .lead_face_temperature = CASE_ROOM_TEMPERATURE };
     return gouge_impact_at(&probe, &state, cells_per_radius);
 }
 

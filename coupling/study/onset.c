@@ -40,6 +40,7 @@ static status fill_site(const case_onset *c, int i, const site_state *from, onse
                         .velocity = from->velocity,
                         .current = from->current,
                         .contact_pressure = from->contact_pressure,
+                        .lead_face_temperature = from->lead_face_temperature,
                         .impact_pressure = hit.impact_pressure,
                         .screen = hit.ratio,
                         .screen_probability = hit.probability,

@@ -30,6 +30,7 @@ typedef struct {
     double radius;                                    /* [m] */
     double time, velocity, current;                   /* at arrival [s, m/s, A]; NaN: not reached */
     double contact_pressure;                          /* [Pa] */
+    double lead_face_temperature;                     /* NaN: no armature.throat_area [K] */
     double impact_pressure;                           /* impedance match [Pa] */
     double screen;                                    /* impact pressure over the hardness of the harder partner [1] */
     double screen_probability;                        /* that it gouges, by that number alone [1] */

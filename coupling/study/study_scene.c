@@ -10,8 +10,9 @@
 static int scenes(const study_case *of, scene_query *out)
 {
     *out = (scene_query){ .impact = of->in->onset.impact, .anew = !of->one_of_several };
-    double *pressure = &out->impact.scene.contact_pressure;
-    if (isnan(*pressure)) *pressure = 0.0; /* one key for a scene that has none, however it is said */
+    double *pressure = &out->impact.scene.contact_pressure, *temperature = &out->impact.armature.temperature;
+    if (isnan(*pressure)) *pressure = 0.0; /* no shot presses or heats: one key for such a scene, however it is said */
+    if (isnan(*temperature)) *temperature = CASE_ROOM_TEMPERATURE;
     snprintf(out->name, sizeof out->name, "%.60sscene", of->prefix);
     return 1;
 }

@@ -5,7 +5,7 @@ import os
 
 from pages import Column, Table
 
-BASE = {"study.craters": 0, "scene.contact_pressure": "60 MPa", "output.report": "no", "output.snapshots": 0,
+BASE = {"study.craters": 0, "output.report": "no", "output.snapshots": 0,
         "study.resolution_error": "10 %", "study.resolution_above": "10 %",  # finer cells would move all rows alike
         "study.interval_parts": "[]"}  # what the table is for
 STRENGTH = [  # title, settings
@@ -23,6 +23,8 @@ MAP = [
     ("lead face at 15 degrees", {"armature.lead_angle": "15 deg"}),
     ("lead face at 45 degrees", {"armature.lead_angle": "45 deg"}),
     ("rail of 450 K", {"rail.temperature": "450 K"}),
+    ("craters measured at 0.05 mm, for 0.083", {"scene.measuring_depth": "0.05 mm"}),
+    ("craters measured at 0.125 mm", {"scene.measuring_depth": "0.125 mm"}),
     ("armature of 450 K", {"armature.temperature": "450 K"}),
     ("armature of 600 K", {"armature.temperature": "600 K"}),
     ("armature of 600 K, twice as strong", {"armature.temperature": "600 K", "armature.yield_scale": 2, "study.screen_low": 0}),
@@ -44,7 +46,7 @@ def name_of(title):
 
 def answer(runs, title, settings):
     """Summary of `breech onset` of the default shot with these settings."""
-    arguments = ["onset", "cases/default_shot"]
+    arguments = ["onset", "cases/default_shot/pressed.yaml"]
     for key, value in {**BASE, **settings}.items():
         arguments += ["--set", "%s=%s" % (key, value)]
     folder, _ = runs.run(name_of(title), arguments)
@@ -78,5 +80,5 @@ def inputs(runs):
     return table(runs, MAP)
 
 
-NOTE = ("`breech onset cases/default_shot` without whole craters, with `study.resolution_error` and `resolution_above` 10 % and no "
+NOTE = ("`breech onset cases/default_shot/pressed.yaml` without whole craters, with `study.resolution_error` and `resolution_above` 10 % and no "
         "`study.interval_parts`, one input changed at a time; in brackets each velocity's interval; \"none\": beyond the velocities of the search")

@@ -5,12 +5,15 @@
 
 #include "coupling/gouge/growth.h"
 #include "coupling/gouge/impact_scene.h"
+#include "coupling/host/numbers.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double PRESSURE_STEP = 5e6; /* [Pa] */
+/* What the shot gives a scene is rounded, so that searches share theirs. */
+static const double PRESSURE_STEP = 5e6;    /* [Pa] */
+static const double TEMPERATURE_STEP = 5.0; /* [K] */
 
 /* ---- one search ---- */
 
@@ -37,23 +40,19 @@ typedef struct {
     family_wanted crater[TOGETHER];
 } family_search;
 
-static double contact_pressure_at(const grain_families *f, double v)
-{
-    const double given = f->c->impact.scene.contact_pressure;
-    trace_point at;
-    if (!isnan(given)) return given;
-    gouge_trace_at_velocity(f->flown, v, &at); /* a velocity never reached: where the shot ends */
-    return PRESSURE_STEP * round(at.contact_pressure / PRESSURE_STEP);
-}
-
 scene_query study_family_query(const grain_families *f, int k, const family_scene *scene)
 {
     const case_impact *from = scene->whole ? &f->whole : &f->probe;
     const grain_family *family = &f->family[k];
+    trace_point shot;
+    gouge_trace_at_velocity(f->flown, scene->velocity, &shot); /* a velocity never reached: where the shot ends */
+    const double pressure = PRESSURE_STEP * round(shot.contact_pressure / PRESSURE_STEP);
     site_state state = { .grain = family->grain,
                          .reached = true,
                          .velocity = scene->velocity,
-                         .contact_pressure = contact_pressure_at(f, scene->velocity) };
+                         .contact_pressure = host_number_or(from->scene.contact_pressure, pressure),
+                         .lead_face_temperature =
+                             TEMPERATURE_STEP * round(shot.lead_face_temperature / TEMPERATURE_STEP) };
     state.grain.radius = scene->radius;
     state.grain.height = family->aspect * scene->radius;
     scene_query q = { .impact = gouge_impact_at(from, &state, scene->cells) };
