@@ -1318,6 +1318,8 @@ static void test_scatter_keeps_order(void **state)
                   r->scratch_velocity, r->scratch_deviation);
     assert_true(f->scratches.reference.velocity < f->surface.reference.velocity + 1e-9);
     assert_true(f->scratch_scatter.more > 0.0 && fabs(r->scratch_velocity - r->threshold_velocity) < 1e-6);
+    assert_true(f->scratch_scatter.threshold > f->scatter.threshold); /* its interval would end later */
+    assert_true(r->scratch_interval[1] == r->threshold_interval[1]);
     study_onset_answer_free(&a);
     case_free(c);
 }

@@ -194,6 +194,16 @@ static void reach_up_to_gouge(grain_family *f)
     for (int k = 0; k < f->scratches.sizes; k++) f->scratches.size[k].interval[1] += more;
 }
 
+/* What gouges grows: the scratch's interval ends with the gouge's at the latest. */
+static void end_with_gouge(grain_family *f)
+{
+    surface_result *scratch = &f->scratches;
+    const surface_result *gouge = &f->surface;
+    scratch->reference.interval[1] = fmin(scratch->reference.interval[1], gouge->reference.interval[1]);
+    for (int k = 0; k < scratch->sizes && k < gouge->sizes; k++)
+        scratch->size[k].interval[1] = fmin(scratch->size[k].interval[1], gouge->size[k].interval[1]);
+}
+
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
 {
     const case_interval_parts *parts = &first->c->study.interval_parts;
@@ -203,6 +213,7 @@ void study_uncertain_widen(const uncertain_inputs *u, const grain_families *firs
         if (!other->family[k].scratch) continue;
         widen_threshold(u, parts, f, &other->family[k], JUDGE_OF_SCRATCH);
         reach_up_to_gouge(&other->family[k]);
+        end_with_gouge(&other->family[k]);
     }
 }
 
