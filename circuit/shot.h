@@ -103,8 +103,8 @@ typedef struct {
     double heat_share;              /* of the contact's heat that enters the armature [1] */
     double resistivity;             /* at 293.15 K [ohm m] */
     double resistivity_coefficient; /* [1/K] */
-    double leg_area, throat_area; /* the current's cross-section in one leg, in the throat; NAN = not asked for [m^2] */
-    double wear_thickness;        /* that wear may take; NAN = not asked for [m] */
+    double leg_area, throat_area;   /* the current's cross-section in one leg, in the throat; NAN = not given [m^2] */
+    double wear_thickness;          /* that wear may take; NAN = not asked for [m] */
 } circuit_shot_armature;
 
 typedef struct {

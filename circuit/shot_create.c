@@ -61,6 +61,10 @@ status circuit_shot_check(const circuit_shot_config *c)
     CHECK(c->armature.wear_fraction == 0.0 || c->armature.melting_temperature > c->armature.initial_temperature,
           STATUS_BAD_INPUT, "armature.initial_temperature = %g K: must be below melting_temperature = %g K",
           c->armature.initial_temperature, c->armature.melting_temperature);
+    const double cold = c->armature.initial_temperature - 293.15;
+    CHECK(1.0 + c->armature.resistivity_coefficient * cold > 0.0, STATUS_BAD_INPUT,
+          "armature.resistivity_coefficient = %g 1/K: leaves no resistivity at initial_temperature = %g K",
+          c->armature.resistivity_coefficient, c->armature.initial_temperature);
     TRY(supplies_check(c));
     for (int k = 0; k < c->n_sites; k++) {
         CHECK(c->sites[k] > c->barrel.start && c->sites[k] <= c->barrel.length, STATUS_BAD_INPUT,

@@ -30,30 +30,33 @@ static before_shot before(const circuit_shot_armature *a)
 
 /* ---- the lead face ---- */
 
+static double width_of(const circuit_shot *s)
+{
+    const double width = s->model.armature.contact_width;
+    return isnan(width) ? s->rails.height : width;
+}
+
 void circuit_shot_lead_face_start(circuit_shot *s)
 {
     const circuit_shot_armature *a = &s->model.armature;
-    const double width = isnan(a->contact_width) ? s->rails.height : a->contact_width;
-    s->lead_face = circuit_lead_face_start(a->throat_area / width, before(a).resistivity);
+    const before_shot metal = before(a);
+    const circuit_lead_face_metal m = { .resistivity = metal.resistivity,
+                                        .coefficient = metal.rise,
+                                        .heat_capacity = a->density * a->specific_heat,
+                                        .start = a->initial_temperature,
+                                        .melting = fmax(a->melting_temperature, a->initial_temperature) };
+    if (!isnan(a->throat_area)) s->lead_face = circuit_lead_face_start(&m, a->throat_area / width_of(s));
 }
 
 void circuit_shot_lead_face_update(circuit_shot *s, const shot_forces *f)
 {
-    const circuit_shot_armature *a = &s->model.armature;
-    if (isnan(a->throat_area)) return;
-    circuit_lead_face_advance(&s->lead_face, s->t, (f->I - f->shunt) * s->lead_face.length / a->throat_area);
+    if (isnan(s->model.armature.throat_area)) return;
+    circuit_lead_face_advance(&s->lead_face, s->t, (f->I - f->shunt) / width_of(s));
 }
 
-/* What the current that has come through to it has heated, without loss: rho c dT = rho_e (1 + alpha (T - T_0)) J^2 dt
- * [K] */
 double circuit_shot_lead_face_temperature(const circuit_shot *s)
 {
-    const circuit_shot_armature *a = &s->model.armature;
-    const before_shot metal = before(a);
-    const double heat = metal.resistivity * s->lead_face.action / (a->density * a->specific_heat);
-    const double rise = metal.rise > 0.0 ? expm1(metal.rise * heat) / metal.rise : heat;
-    if (isnan(a->throat_area)) return NAN;
-    return fmin(a->initial_temperature + rise, fmax(a->melting_temperature, a->initial_temperature));
+    return isnan(s->model.armature.throat_area) ? NAN : s->lead_face.temperature[CIRCUIT_LEAD_FACE_CELLS - 1];
 }
 
 /* ---- the contact ---- */

@@ -72,9 +72,11 @@ static breech_case *small_case(const char *end_time)
 static scene_query query_at(const breech_case *c, double velocity)
 {
     const case_impact from = case_inputs_of(c).onset.impact;
-    const site_state state = {
-        .grain = c->sites.item[0], .reached = true, .velocity = velocity, .contact_pressure = 75e6
-    };
+    const site_state state = { .grain = c->sites.item[0],
+                               .reached = true,
+                               .velocity = velocity,
+                               .contact_pressure = 75e6,
+                               .lead_face_temperature = NAN };
     scene_query q = { .impact = gouge_impact_at(&from, &state, 1.2) };
     snprintf(q.name, sizeof q.name, "v%g-%p", velocity, (const void *)c);
     return q;

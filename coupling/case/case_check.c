@@ -117,8 +117,6 @@ void case_resolve(breech_case *c, const tree_node *root)
     follow_temperature(rail, circuit_shot_rails_params, &c->rails, c->rail.temperature);
     follow_temperature(armature, circuit_shot_armature_params, &c->armature, c->projectile.temperature);
     resolve_text(c->particle.material, c->rail.material);
-    if (isnan(c->projectile.temperature) && isnan(c->armature.throat_area))
-        c->projectile.temperature = CASE_ROOM_TEMPERATURE;
     if (isnan(c->particle.height)) c->particle.height = c->particle.radius;
     for (int k = 0; k < c->sites.n; k++) resolve_site(&c->sites.item[k], &c->particle, case_entry_node(sites, k));
 }

@@ -57,7 +57,7 @@ static const base_param projectile_params[] = {
                  "full width across the rail; not given: rail.height"),
     PARAM_DOUBLE(case_projectile, chamfer_height, "m", REQUIRED, 0.0, 1.0,
                  "height of the lead face, normal to the rail; 0 = a square front"),
-    PARAM_DOUBLE(case_projectile, temperature, "K", OPTIONAL, 4.0, 2000.0,
+    PARAM_DOUBLE(case_projectile, temperature, "K", OPTIONAL, 4.0, 5000.0,
                  "of the armature in the scene; not given: its lead face's, as the shot has heated it; 293 K without "
                  "throat_area"),
     PARAM_DOUBLE(case_projectile, yield_scale, "1", 1.0, 0.01, 100.0,
@@ -157,8 +157,8 @@ static const base_param scene_params[] = {
     PARAM_BOOL(case_scene, half_model, 1, "compute z >= 0 and mirror it"),
     PARAM_DOUBLE(
         case_scene, measuring_depth, "m", OPTIONAL, 1e-7, 0.01,
-        "depth at which a crater's length and width are taken; not given: a sixth of the grain's radius, or half "
-        "a cell if that is more"),
+        "from which a crater counts: where its outline, length, width and class are taken; not given: a sixth of "
+        "the grain's radius, or half a cell if that is more"),
     PARAM_DOUBLE(case_scene, limit_widening, "1", 1.5, 1.0, 10.0,
                  "widening from which a crater is a gouge by its shape"),
     PARAM_DOUBLE(case_scene, limit_severity, "1", 0.0, -10.0, 1e4,
@@ -560,11 +560,10 @@ static const case_section profile_children[] = {
 /* What the impact scene takes from sections that the circuit reads too. */
 static const case_section rail_in_scene = { PART("rail", rail, rail_params, NEED_SCENE, "As the impact scene sees it."),
                                             .children = rail_children, .size = sizeof(case_rail) };
-static const case_section armature_in_scene = {
-    PART("armature", projectile, projectile_params, NEED_SCENE,
-         "The body in the impact scene: half a U, one leg on one rail, the head in front."),
-    .size = sizeof(case_projectile)
-};
+static const case_section armature_in_scene = { PART("armature", projectile, projectile_params, NEED_SCENE,
+                                                     "The body in the impact scene: half a U, one leg on one rail, the "
+                                                     "head in front; without legs where head_thickness is length."),
+                                                .size = sizeof(case_projectile) };
 
 static const case_section sections[] = {
 #include "circuit/supply/supply.def"

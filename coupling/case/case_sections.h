@@ -61,7 +61,7 @@ typedef struct {
 
 #define CASE_ROOM_TEMPERATURE 293.0 /* of what is not said to be warmer [K] */
 
-/* The armature's body in the scene: half a U, one leg on one rail. */
+/* The armature's body in the scene: half a U, one leg on one rail; a head alone where that is all its length. */
 typedef struct {
     char material[BASE_PARAM_TEXT_SIZE];
     double lead_angle;     /* between the lead face and the rail's surface [rad] */

@@ -37,6 +37,16 @@ bool gouge_counts_as_rail(const gouge_scene *s, int body)
     return body == s->rail || gouge_is_layer(s, body);
 }
 
+/* No scene has a molten armature: a step below its melting point is the most [K]. */
+static double solid_below(const case_impact *c, double temperature)
+{
+    const mpm_material *metal = case_material(&c->materials, c->armature.material);
+    const double most = metal && metal->melting_temperature > 0.0 ? metal->melting_temperature : INFINITY;
+    double T = host_number_or(temperature, CASE_ROOM_TEMPERATURE);
+    while (T >= most) T -= GOUGE_TEMPERATURE_STEP;
+    return T;
+}
+
 case_impact gouge_impact_at(const case_impact *from, const site_state *state, double cells_per_radius)
 {
     const case_site *g = &state->grain;
@@ -47,7 +57,7 @@ case_impact gouge_impact_at(const case_impact *from, const site_state *state, do
     at.scene.velocity = state->velocity;
     at.scene.contact_pressure = state->contact_pressure;
     at.scene.cells_per_radius = cells_per_radius;
-    if (isnan(at.armature.temperature)) at.armature.temperature = state->lead_face_temperature;
+    if (isnan(at.armature.temperature)) at.armature.temperature = solid_below(&at, state->lead_face_temperature);
     return at;
 }
 

@@ -52,8 +52,9 @@ enum { GOUGE_PIT = -1 };
 #define GOUGE_RESOLVED_LAYER 1.8
 #define GOUGE_ALMOST 1.1 /* a layer's cells may be so much larger than asked for: they can only be halved */
 
-/* An impact decides its scene; a contact pressure that it does not give is none.  The caller frees the scene; after an
- * error it is empty.  STATUS_BAD_INPUT names what cannot be built and which key to change. */
+/* An impact decides its scene; a contact pressure that it does not give is none, a temperature of its armature
+ * CASE_ROOM_TEMPERATURE.  The caller frees the scene; after an error it is empty.  STATUS_BAD_INPUT names what cannot
+ * be built and which key to change. */
 status gouge_scene_make(const case_impact *c, gouge_scene *out);
 
 void gouge_scene_free(gouge_scene *s);
@@ -68,7 +69,11 @@ double gouge_cells_across(const case_scene *s, double fine, double thickness);
 /* The same without what the crater is measured by, which takes some 20 ms: does this case make a scene? */
 status gouge_scene_bodies(const case_impact *c, gouge_scene *out);
 
-/* The impact with this state's grain, velocity and contact pressure, at that resolution. */
+/* What a shot makes its armature's lead face is taken in steps of this, so that searches share scenes [K]. */
+#define GOUGE_TEMPERATURE_STEP 5.0
+
+/* The impact with this state's grain, velocity and contact pressure, at that resolution; where the impact gives the
+ * armature no temperature, with that of the state's lead face, below melting. */
 case_impact gouge_impact_at(const case_impact *from, const site_state *state, double cells_per_radius);
 
 /* Does the crater count this body's points: the rail or one of its layers? */

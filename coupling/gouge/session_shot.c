@@ -36,6 +36,19 @@ static void warn_of_limits(session *s, const circuit_shot_limits *l)
                          l->critical_position, l->critical_velocity);
 }
 
+static void warn_of_lead_face(session *s, const shot_outcome *out, const circuit_shot_armature *a)
+{
+    for (int i = 0; i < out->n_trace; i++) {
+        const trace_point *at = &out->trace[i];
+        if (!(at->lead_face_temperature >= a->melting_temperature)) continue;
+        run_session_warn(s,
+                         "transition: the armature's lead face has melted from x = %.3g m, %.0f m/s on: scenes take it "
+                         "just below melting, where no law of strength was shown to hold",
+                         at->x, at->v);
+        return;
+    }
+}
+
 status gouge_session_shot(session *s, const case_flight *flight, const site_jump *jump, bool with_history,
                           shot_outcome *out, shot_record *record)
 {
@@ -59,5 +72,6 @@ status gouge_session_shot(session *s, const case_flight *flight, const site_jump
     if (done.code != STATUS_OK || !with_history) return done;
     warn_of_time(s, &out->summary);
     warn_of_limits(s, &out->limits);
+    warn_of_lead_face(s, out, &flight->launcher.armature);
     return done;
 }

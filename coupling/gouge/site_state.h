@@ -24,15 +24,15 @@ typedef struct {
 
 /* The shot at one accepted step. */
 typedef struct {
-    double t, x, v;          /* [s, m, m/s] */
-    double contact_pressure; /* on gouge_face_area [Pa] */
-    double lead_face_temperature;
-    double pressure;   /* on contact_length x contact_width, as the circuit has it [Pa] */
-    double friction;   /* coefficient [1] */
-    double rail_flux;  /* of the contact's heat into one rail's face [W/m^2] */
-    double rail_sheet; /* current on a metre of that face's height [A/m] */
-    double film_rise;  /* of the armature's face, with its film, over the rail ahead [K] */
-    double melted;     /* mass that both faces have lost to melting so far [kg] */
+    double t, x, v;               /* [s, m, m/s] */
+    double contact_pressure;      /* on gouge_face_area [Pa] */
+    double lead_face_temperature; /* [K] */
+    double pressure;              /* on contact_length x contact_width, as the circuit has it [Pa] */
+    double friction;              /* coefficient [1] */
+    double rail_flux;             /* of the contact's heat into one rail's face [W/m^2] */
+    double rail_sheet;            /* current on a metre of that face's height [A/m] */
+    double film_rise;             /* of the armature's face, with its film, over the rail ahead [K] */
+    double melted;                /* mass that both faces have lost to melting so far [kg] */
 } trace_point;
 
 /* What a gouge takes from the armature at its site. */

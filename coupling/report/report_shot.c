@@ -121,7 +121,7 @@ static const panel panels[] = {
 };
 enum { PANELS = sizeof panels / sizeof *panels };
 
-/* Or not known. */
+/* Zero throughout, or not known. */
 static bool is_zero(const double *y, size_t n)
 {
     for (size_t i = 0; i < n; i++)

@@ -12,7 +12,7 @@ const summary_key run_scene_keys[] = {
     SUMMARY_TEXT(onset_scene, "surface", surface, "of the rail"),
     SUMMARY_NUMBER(onset_scene, "contact_pressure", contact_pressure, "Pa", "pressing the armature on"),
     SUMMARY_NUMBER(onset_scene, "temperature", temperature, "K", "of the rail"),
-    SUMMARY_NUMBER(onset_scene, "armature_temperature", armature_temperature, "K", "of the armature"),
+    SUMMARY_NUMBER(onset_scene, "lead_face_temperature", lead_face_temperature, "K", "of the armature, all of it"),
     SUMMARY_NUMBER(onset_scene, "cells_per_radius", cells_per_radius, "1", "resolution"),
     SUMMARY_VALUE(onset_scene, KEY_FLAG, "gauged", gauged, "",
                   "over once its groove's growth was known: its crater is as far as it was"),

@@ -11,12 +11,12 @@ typedef struct {
     double velocity;              /* [m/s] */
     double radius, height;        /* of the grain [m] */
     char shape[BASE_PARAM_TEXT_SIZE], material[BASE_PARAM_TEXT_SIZE], surface[SUMMARY_NAME_SIZE];
-    double contact_pressure; /* [Pa] */
-    double temperature;      /* of the rail [K] */
-    double armature_temperature;
-    double cells_per_radius; /* [1] */
-    bool gauged;             /* over once its groove's growth was known: its crater is as far as it was */
-    bool reused;             /* taken from the store, not computed by this run */
+    double contact_pressure;      /* [Pa] */
+    double temperature;           /* of the rail [K] */
+    double lead_face_temperature; /* of the armature, all of it [K] */
+    double cells_per_radius;      /* [1] */
+    bool gauged;                  /* over once its groove's growth was known: its crater is as far as it was */
+    bool reused;                  /* taken from the store, not computed by this run */
     scene_result result;
 } onset_scene;
 

@@ -28,7 +28,7 @@ static onset_scene entry_of(const scene_query *q)
     surface_text(&of->rail, e.surface, sizeof e.surface);
     e.contact_pressure = of->scene.contact_pressure;
     e.temperature = of->rail.temperature;
-    e.armature_temperature = of->armature.temperature;
+    e.lead_face_temperature = of->armature.temperature;
     e.cells_per_radius = of->scene.cells_per_radius;
     e.gauged = case_impact_is_gauged(of);
     return e;

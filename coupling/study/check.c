@@ -48,7 +48,7 @@ static case_impact scene_at(const case_onset *c, const case_site *grain, double 
     const site_state state = { .grain = *grain,
                                .velocity = velocity,
                                .contact_pressure = probe.scene.contact_pressure,
-                               .lead_face_temperature = CASE_ROOM_TEMPERATURE };
+                               .lead_face_temperature = NAN };
     return gouge_impact_at(&probe, &state, cells_per_radius);
 }
 

@@ -16,7 +16,7 @@ static const summary_key site_keys[] = {
     SUMMARY_NUMBER(onset_site, "current", current, "A", "at arrival"),
     SUMMARY_NUMBER(onset_site, "contact_pressure", contact_pressure, "Pa", "at arrival"),
     SUMMARY_NUMBER(onset_site, "lead_face_temperature", lead_face_temperature, "K",
-                   "of the armature's at arrival; null: armature.throat_area is not given"),
+                   "of the armature's lead face at arrival; null: armature.throat_area is not given"),
     SUMMARY_NUMBER(onset_site, "impact_pressure", impact_pressure, "Pa", "by impedance match"),
     SUMMARY_NUMBER(onset_site, "screen", screen, "1",
                    "impact pressure over hardness of the harder partner, of the rail as deep as the grain is high"),

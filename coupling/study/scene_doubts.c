@@ -23,6 +23,19 @@ static void doubt_grain(const case_inputs *in, doubt_sink *say, void *user)
     say(user, text);
 }
 
+/* The crater of a scene, measured where its cells hardly show it. */
+static void doubt_depth(const case_inputs *in, doubt_sink *say, void *user)
+{
+    const case_impact *c = &in->onset.impact;
+    const double cell = c->particle.radius / c->scene.cells_per_radius;
+    char text[400];
+    if (!in->onset.has_body || isnan(cell) || !(c->scene.measuring_depth < GOUGE_ALMOST * 0.25 * cell)) return;
+    snprintf(text, sizeof text,
+             "scene.measuring_depth = %g um: less than a quarter of a cell of %g um, whose own unevenness may count",
+             1e6 * c->scene.measuring_depth, 1e6 * cell);
+    say(user, text);
+}
+
 /* A layer of the rail that cannot have the cells of its own that the case asks for. */
 static void doubt_layers(const case_inputs *in, doubt_sink *say, void *user)
 {
@@ -50,6 +63,7 @@ static void doubt(const case_inputs *in, doubt_sink *say, void *user)
     if (!in->given.bodies) {
         doubt_grain(in, say, user);
         doubt_layers(in, say, user);
+        doubt_depth(in, say, user);
         return;
     }
     for (int i = 0; i < s->bodies; i++)

@@ -11,9 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the shot gives a scene is rounded, so that searches share theirs. */
-static const double PRESSURE_STEP = 5e6;    /* [Pa] */
-static const double TEMPERATURE_STEP = 5.0; /* [K] */
+static const double PRESSURE_STEP = 5e6; /* that of the shot is rounded, so that searches share scenes [Pa] */
 
 /* ---- one search ---- */
 
@@ -47,12 +45,12 @@ scene_query study_family_query(const grain_families *f, int k, const family_scen
     trace_point shot;
     gouge_trace_at_velocity(f->flown, scene->velocity, &shot); /* a velocity never reached: where the shot ends */
     const double pressure = PRESSURE_STEP * round(shot.contact_pressure / PRESSURE_STEP);
+    const double lead_face = GOUGE_TEMPERATURE_STEP * round(shot.lead_face_temperature / GOUGE_TEMPERATURE_STEP);
     site_state state = { .grain = family->grain,
                          .reached = true,
                          .velocity = scene->velocity,
                          .contact_pressure = host_number_or(from->scene.contact_pressure, pressure),
-                         .lead_face_temperature =
-                             TEMPERATURE_STEP * round(shot.lead_face_temperature / TEMPERATURE_STEP) };
+                         .lead_face_temperature = lead_face };
     state.grain.radius = scene->radius;
     state.grain.height = family->aspect * scene->radius;
     scene_query q = { .impact = gouge_impact_at(from, &state, scene->cells) };

@@ -195,15 +195,6 @@ static void conclude(session *s, const grain_families *g, const sought *t, const
                      out->reach);
 }
 
-/* A gouge is a groove that grows: where the grids place the scratch's threshold above the gouge's, it is the
- * gouge's. */
-static void keep_order(grain_family *f)
-{
-    const double gouge = f->surface.reference.velocity + f->scatter.more;
-    const double scratch = f->scratches.reference.velocity + f->scratch_scatter.more;
-    if (f->scratch && scratch > gouge) f->scratch_scatter.more += gouge - scratch;
-}
-
 /* ---- where there is no threshold ---- */
 
 /* Does the scene decide on the side on which the search saw all of its scenes? */
@@ -311,7 +302,6 @@ static status measure(session *s, grain_families *g, scene_query *query, const s
         if (list[k].near) conclude(s, g, &list[k], other_of(list, thresholds, &list[k]), value);
         if (is_one_sided(&list[k])) conclude_one_sided(s, g, &list[k]);
     }
-    for (int k = 0; k < g->n; k++) keep_order(&g->family[k]);
     return status_ok();
 }
 

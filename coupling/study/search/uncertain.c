@@ -179,29 +179,35 @@ static void widen_threshold(const uncertain_inputs *u, const case_interval_parts
     if (scatter.against > 0.0) end_alike(s, study_family_surface(f, judge));
 }
 
-/* Without growth nothing gouges, whatever its shape, and cells add to growth: as far up as finer ones may raise the
- * gouge's threshold they may raise the scratch's. */
-static void reach_up_to_gouge(grain_family *f)
+/* By so much of all sizes, without a change of the parts that the interval is made of. */
+static void move_scratches(surface_result *s, double by)
 {
-    const threshold_result *gouge = &f->surface.reference;
-    threshold_result *scratch = &f->scratches.reference;
-    const double more = gouge->interval[1] - scratch->interval[1];
-    if (!(gouge->allowance[1] > gouge->allowance[0]) || !(more > 0.0)) return;
-    const double others = scratch->allowance[1] * scratch->allowance[1] - scratch->of_cells[1] * scratch->of_cells[1];
-    scratch->interval[1] += more;
-    scratch->allowance[1] += more;
-    scratch->of_cells[1] = sqrt(scratch->allowance[1] * scratch->allowance[1] - others);
-    for (int k = 0; k < f->scratches.sizes; k++) f->scratches.size[k].interval[1] += more;
+    const double none[2] = { 0.0, 0.0 };
+    s->reference.more += by;
+    move_threshold(&s->reference.velocity, s->reference.interval, by, none);
+    for (int k = 0; k < s->sizes; k++) move_threshold(&s->size[k].velocity, s->size[k].interval, by, none);
 }
 
-/* What gouges grows: the scratch's interval ends with the gouge's at the latest. */
-static void end_with_gouge(grain_family *f)
+/* The upper ends of all sizes, by what finer cells may do. */
+static void move_upper_ends(surface_result *s, double by)
 {
-    surface_result *scratch = &f->scratches;
-    const surface_result *gouge = &f->surface;
-    scratch->reference.interval[1] = fmin(scratch->reference.interval[1], gouge->reference.interval[1]);
-    for (int k = 0; k < scratch->sizes && k < gouge->sizes; k++)
-        scratch->size[k].interval[1] = fmin(scratch->size[k].interval[1], gouge->size[k].interval[1]);
+    threshold_result *r = &s->reference;
+    const double others = r->allowance[1] * r->allowance[1] - r->of_cells[1] * r->of_cells[1];
+    r->interval[1] += by;
+    r->allowance[1] += by;
+    r->of_cells[1] = sqrt(fmax(r->allowance[1] * r->allowance[1] - others, 0.0));
+    for (int k = 0; k < s->sizes; k++) s->size[k].interval[1] += by;
+}
+
+/* What gouges grows.  Where the scratch's threshold comes out above the gouge's, it is the gouge's, and its interval
+ * ends with that at the latest.  Without growth nothing gouges, whatever its shape, and cells add to growth: as far up
+ * as finer ones may raise the gouge's threshold they may raise the scratch's. */
+static void keep_order(grain_family *f)
+{
+    const threshold_result *gouge = &f->surface.reference, *scratch = &f->scratches.reference;
+    if (scratch->velocity > gouge->velocity) move_scratches(&f->scratches, gouge->velocity - scratch->velocity);
+    const double more = gouge->interval[1] - scratch->interval[1];
+    if (more < 0.0 || (more > 0.0 && gouge->allowance[1] > gouge->allowance[0])) move_upper_ends(&f->scratches, more);
 }
 
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
@@ -212,8 +218,7 @@ void study_uncertain_widen(const uncertain_inputs *u, const grain_families *firs
         widen_threshold(u, parts, f, &other->family[k], JUDGE_OF_GOUGE);
         if (!other->family[k].scratch) continue;
         widen_threshold(u, parts, f, &other->family[k], JUDGE_OF_SCRATCH);
-        reach_up_to_gouge(&other->family[k]);
-        end_with_gouge(&other->family[k]);
+        keep_order(&other->family[k]);
     }
 }
 
