@@ -14,12 +14,13 @@
 #define SHOT CASES "/default_shot"
 
 /* A scene of a second or two: a stub of an armature over a short rail, one or two cells a radius. */
-#define TINY                                                                                                  \
-    SHOT " --set scene.cells_per_radius=1.5 --set scene.levels=2 --set scene.coarse_cell='0.8 mm' --set "     \
-         "scene.growth=1.3 --set output.report=no"                                                            \
-         " --set scene.rail_ahead='8 mm' --set "                                                              \
-         "armature.length='10 mm' --set armature.half_bore='6 mm' --set armature.width='10 mm' --set "        \
-         "armature.head_thickness='6 mm' --set scene.rail_behind='1 mm' --set scene.rail_depth='4 mm' --set " \
+#define TINY                                                                                                        \
+    SHOT " --set scene.cells_per_radius=1.5 --set scene.levels=2 --set scene.coarse_cell='0.8 mm' --set "           \
+         "scene.growth=1.3 --set output.report=no"                                                                  \
+         " --set scene.rail_ahead='8 mm' --set "                                                                    \
+         "armature.length='10 mm' --set armature.half_bore='6 mm' --set armature.width='10 mm' --set "              \
+         "armature.head_thickness='6 mm' --set armature.leg_thickness='5 mm' --set scene.rail_behind='1 mm' --set " \
+         "scene.rail_depth='4 mm' --set "                                                                           \
          "scene.end_time='4 us'"
 
 static inline int run(const char *arguments)

@@ -51,6 +51,7 @@ static inline breech_case *small_case(const char *const *speed, bool to_gauge, c
                                  "armature.length=10 mm",
                                  "armature.width=6 mm",
                                  "armature.half_bore=6 mm",
+                                 "armature.leg_thickness=5 mm",
                                  "armature.head_thickness=6 mm",
                                  NULL };
     return changed_case(sets);

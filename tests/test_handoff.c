@@ -906,7 +906,8 @@ static void test_half_model(void **state)
 static void test_judged(void **state)
 {
     (void)state;
-    mpm_body bodies[2] = { { .name = "armature" }, { .name = "rail" } };
+    const mpm_material light = { .density = 2250.0 }, heavy = { .density = 9000.0 };
+    mpm_body bodies[2] = { { .name = "armature", .material = &light }, { .name = "rail", .material = &heavy } };
     const gouge_scene s = { .scene = { .bodies = 2, .body = bodies },
                             .armature = 0,
                             .rail = 1,
@@ -918,19 +919,25 @@ static void test_judged(void **state)
     const scene_outcome o = { .threads = 1 };
     const struct {
         bool decides;
-        double growth, shape;
+        double growth, shape, length; /* the crater of one that grows is 12 radii/(1 + 2) = 2 mm long at least */
         damage_class is;
-    } grooves[] = { { true, 1e5, 5.0, DAMAGE_SCRATCH },  { true, 1e5, 3.0, DAMAGE_GOUGE },
-                    { true, -1e5, 3.0, DAMAGE_SCRATCH }, { true, 1e4, 3.0, DAMAGE_UNDECIDED },
-                    { true, NAN, NAN, DAMAGE_SCRATCH },  { false, 1e5, 3.0, DAMAGE_UNDECIDED } };
+    } grooves[] = { { true, 1e5, 5.0, 3e-3, DAMAGE_SCRATCH },    { true, 1e5, 3.0, 3e-3, DAMAGE_GOUGE },
+                    { true, -1e5, 3.0, 3e-3, DAMAGE_SCRATCH },   { true, 1e4, 3.0, 3e-3, DAMAGE_UNDECIDED },
+                    { true, NAN, NAN, 0.0, DAMAGE_SCRATCH },     { false, 1e5, 3.0, 1e-3, DAMAGE_UNDECIDED },
+                    { true, 1e5, 1.0, 1.99e-3, DAMAGE_SCRATCH }, { true, 1e5, 1.0, 2.01e-3, DAMAGE_GOUGE },
+                    { true, -1e3, 1.0, 1e-3, DAMAGE_UNDECIDED } };
     for (size_t k = 0; k < sizeof grooves / sizeof *grooves; k++) {
         const gouge_watch w = { .scene = &s,
-                                .state = { .gauge_length_over_width = grooves[k].shape },
+                                .state = { .gauge_length_over_width = grooves[k].shape,
+                                           .gauge_length = grooves[k].length },
                                 .growth = grooves[k].growth,
                                 .growth_decides = grooves[k].decides,
                                 .found = { .class = DAMAGE_UNDECIDED, .length = 12e-3, .width = 6e-3 } };
         const scene_result r = gouge_result(&s, &w, &o);
         assert_int_equal(r.class, grooves[k].is);
+        const bool none = grooves[k].decides && grooves[k].growth > 0.0 && grooves[k].length < 2e-3;
+        assert_true(none ? isnan(r.groove_growth) && strstr(r.reason, "left its grain") != NULL
+                         : r.groove_growth == grooves[k].growth || isnan(grooves[k].growth));
         assert_int_equal(r.crater_class, DAMAGE_UNDECIDED);
         assert_true(r.length_over_width == 2.0);
     }

@@ -181,7 +181,7 @@ static void test_places(void **state)
           "3:18: bank[2].position" },
         { "optimise.goal=flat", "optimise: {goal: flat}", "3:11: optimise.peak_current is missing" },
         { "rail.layers=[{material: steel_4340, thickness: 12 mm}]",
-          "rail: {layers: [{material: steel_4340, thickness: 12 mm}]}", "72:15: scene.rail_depth" },
+          "rail: {layers: [{material: steel_4340, thickness: 12 mm}]}", "73:15: scene.rail_depth" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char arguments[600], place[200];

@@ -554,7 +554,7 @@ static void test_copy(void **state)
  * m/s later. */
 typedef struct {
     int scenes, stop_after; /* of this process; 0: never */
-    int whole_scratches;    /* the next so many whole scenes are scratches, whatever their severity */
+    int whole_scratches;    /* the next so many whole scenes leave craters too long for a gouge */
     double base;            /* threshold of a 0.5 mm grain [m/s] */
     double tear_drop;       /* velocity at which its groove is four times as long as wide; 0: shapes are not made up */
 } fake;
@@ -587,7 +587,7 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
         gauged ? DAMAGE_UNDECIDED : out->result.class; /* of a half-made crater it says nothing */
     if (!gauged && counter.whole_scratches > 0) {
         counter.whole_scratches--;
-        out->result.crater_class = DAMAGE_SCRATCH;
+        out->result.length_over_width = 4.1;
     }
     out->result.crater_volume = (gauged ? 0.3e-9 : 1e-9) * v; /* as far as it was */
     out->impulse = 0.02;

@@ -13,7 +13,7 @@
 struct breech_case; /* case.h */
 
 /* The armature over a grain on the rail: all that decides such a scene.  Of one that a study varies, grain, velocity,
- * contact pressure and resolution are set anew for every scene (gouge_impact_at). */
+ * contact pressure, the armature's heat and resolution are set anew for every scene (gouge_impact_at). */
 typedef struct {
     case_rail rail;
     case_projectile armature;

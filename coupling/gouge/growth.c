@@ -63,6 +63,11 @@ double gouge_front_speed(const gouge_gauges *g)
     return spread > 0.0 ? (g->looks * g->tx - g->t * g->x) / spread : NAN;
 }
 
+double gouge_shortest_groove(double radius, double density_armature, double density_rail)
+{
+    return (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / (1.0 + sqrt(density_rail / density_armature));
+}
+
 double gouge_growth_folds(double growth, double radius, double velocity)
 {
     const double folds = growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;

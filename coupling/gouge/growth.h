@@ -38,6 +38,10 @@ double gouge_front_speed(const gouge_gauges *g);
  * section that is ploughed: four times as much then.  Never less than before. */
 int gouge_finest_level(const gouge_scene *s, const gouge_gauges *g);
 
+/* Length of the shortest crater at the second gauge that is a groove's, of a grain of that radius: as far as two fluids
+ * of these densities that meet head on would dig from gauge to gauge.  A shorter one has not left its grain [m]. */
+double gouge_shortest_groove(double radius, double density_armature, double density_rail);
+
 /* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN
  * and counts as -3, and none as less. */
 double gouge_growth_folds(double growth, double radius, double velocity);

@@ -55,12 +55,25 @@ static void judge_by_growth(scene_result *r, const gouge_scene *s)
     const bool decided = fabs(excess) >= s->growth_scatter;
     const damage_class below = r->class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
     r->class = !decided ? DAMAGE_UNDECIDED : excess > 0.0 ? DAMAGE_GOUGE : below;
-    snprintf(
-        r->reason, sizeof r->reason,
-        "the groove's plastic power changes by %.2f e-folds from gauge to gauge, its crater is %.1f times as long as "
-        "wide (limit %g): %.2f, %s %.2f",
-        folds, r->gauge_length_over_width, s->limit_length_over_width, excess, decided ? "beyond" : "within",
-        s->growth_scatter);
+    memset(r->reason, 0, sizeof r->reason); /* results are compared byte by byte */
+    if (isnan(r->groove_growth))
+        snprintf(r->reason, sizeof r->reason, "no groove that lived to its first gauge and left its grain");
+    else
+        snprintf(r->reason, sizeof r->reason,
+                 "the groove's plastic power changes by %.2f e-folds from gauge to gauge, its crater is %.1f times as "
+                 "long as "
+                 "wide (limit %g): %.2f, %s %.2f",
+                 folds, r->gauge_length_over_width, s->limit_length_over_width, excess, decided ? "beyond" : "within",
+                 s->growth_scatter);
+}
+
+/* What grows without a groove that has left its grain is no growth: power in the grain's own seat. */
+static bool has_left_grain(const gouge_scene *s, const gouge_watch *w)
+{
+    const mpm_body *body = s->scene.body;
+    const double least = gouge_shortest_groove(s->crater.particle_radius, body[s->armature].material->density,
+                                               body[s->rail].material->density);
+    return w->state.gauge_length >= least;
 }
 
 scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scene_outcome *o)
@@ -70,8 +83,8 @@ scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scen
     memset(&r, 0, sizeof r);
     take_crater(&r, &w->found);
     take_bodies(&r, s, w, m);
-    r.groove_growth = w->growth;
-    r.growth_per_way = w->growth / s->velocity;
+    r.groove_growth = w->growth_decides && w->growth > 0.0 && !has_left_grain(s, w) ? NAN : w->growth;
+    r.growth_per_way = r.groove_growth / s->velocity;
     r.front_speed_ratio = w->front_speed / s->velocity;
     r.gauge_length_over_width = w->growth_decides ? w->state.gauge_length_over_width : NAN;
     r.peak_pressure = fmax(r.peak_pressure_armature_999, r.peak_pressure_rail_999);

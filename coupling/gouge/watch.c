@@ -24,12 +24,18 @@ static status measure_crater(const gouge_watch *w, const mpm *m, crater *out)
     return done;
 }
 
+static void take_shape(gouge_watch *w, const crater *now)
+{
+    w->state.gauge_length_over_width = gouge_crater_length_over_width(now);
+    w->state.gauge_length = now->length;
+}
+
 /* At the second gauge, where a scene of a search ends: a whole scene is judged by the same crater. */
 static status note_shape(gouge_watch *w, const mpm *m)
 {
     crater now;
     TRY(measure_crater(w, m, &now));
-    w->state.gauge_length_over_width = gouge_crater_length_over_width(&now);
+    take_shape(w, &now);
     gouge_crater_free(&now);
     return status_ok();
 }
@@ -123,8 +129,7 @@ static status finish(void *user, const mpm *m, bool *keep)
     const double since = host_wall_clock();
     TRY(gouge_armature_metal(w->scene, m, &w->end));
     TRY(measure_crater(w, m, &w->found));
-    double *at_gauge = &w->state.gauge_length_over_width;
-    if (*at_gauge == 0.0) *at_gauge = gouge_crater_length_over_width(&w->found); /* ends there, or before */
+    if (w->state.gauge_length_over_width == 0.0) take_shape(w, &w->found); /* ends there, or before */
     TRY(gouge_carried_volumes(w->scene, m, w->carried));
     mpm_failed_volumes(m, w->failed);
     w->rail = mpm_body_state(m, w->scene->rail);

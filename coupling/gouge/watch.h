@@ -19,6 +19,7 @@ typedef struct {
     gouge_front front;
     gouge_gauges gauges;
     double gauge_length_over_width; /* of the crater at the second gauge, NAN without one; 0: not yet [1] */
+    double gauge_length;            /* of that crater [m] */
     gouge_metal start;              /* the armature's at the start */
 } gouge_watched;
 

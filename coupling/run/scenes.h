@@ -2,8 +2,8 @@
 /* Scenes for a study: ask with inputs, get outcomes.  The one way in which a study comes by a scene.
  *
  * A scene is what its inputs make it: the case's rail, projectile, scene and material constants, the grain, velocity,
- * contact pressure and resolution, the program's version and instruction set.  Whoever asks for the same inputs again -
- * another site, kind, treatment, a resumed run - gets the scene that is there.
+ * contact pressure, heat of the armature and resolution, the program's version and instruction set.  Whoever asks for
+ * the same inputs again - another site, kind, treatment, a resumed run - gets the scene that is there.
  *   run_scenes_find   what is known already; costs no scene
  *   run_scenes_all    these, all of them: a batch
  *   run_scenes_some   at least one more of these: for a study that can go on with whichever comes first

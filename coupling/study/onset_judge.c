@@ -72,15 +72,21 @@ static bool is_sure(const grain_family *f, const family_scene *s)
     return f->by_growth && s->whole && s->velocity >= study_surface_end_in_cells(&f->surface, &t);
 }
 
-/* One of them left no gouge by its shape, and none left one: what is there at the end decides as much as growth. */
-static void find_contradiction(grain_family *f)
+/* Its class, but a scratch where its crater at the end is longer for its width than a gouge is. */
+static damage_class left_by(const scene_result *r, double limit)
+{
+    return r->class == DAMAGE_GOUGE && r->length_over_width > limit ? DAMAGE_SCRATCH : r->class;
+}
+
+/* One of them left no gouge, and none left one: what is there at the end decides as much as growth. */
+static void find_contradiction(grain_family *f, double limit)
 {
     int gouges = 0, others = 0;
     f->contradicted[0] = '\0';
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *s = &f->scene[i];
         if (!is_sure(f, s)) continue;
-        const damage_class class = s->record->entry.result.crater_class;
+        const damage_class class = left_by(&s->record->entry.result, limit);
         const size_t used = strlen(f->contradicted);
         gouges += class == DAMAGE_GOUGE;
         others += class == DAMAGE_NONE || class == DAMAGE_SCRATCH;
@@ -101,7 +107,7 @@ static void find_contradictions(session *s, onset_answer *a)
 {
     for (int k = 0; k < a->grains.n; k++) {
         grain_family *f = &a->grains.family[k];
-        find_contradiction(f);
+        find_contradiction(f, a->grains.c->impact.scene.limit_length_over_width);
         if (f->contradicted[0])
             run_session_warn(s, "%sgrains of kind %d gouge by the growth of their grooves, but not by whole scenes: %s",
                              a->grains.surface, k + 1, f->contradicted);

@@ -2,7 +2,7 @@
 /* The threshold surface of a family of grains: the velocity from which a grain of a given size gouges.
  *
  * A family: grains alike in all but size - shape, material, bond, height over radius - on one surface, in one shot.  A
- * scene's contact pressure follows from its velocity, so size and velocity are the axes.
+ * scene's contact pressure and the heat of its armature follow from its velocity, so size and velocity are the axes.
  *   1. At the reference size the whole search of threshold.h, coarse and fine.
  *   2. At the other sizes scenes of the last resolution, under two assumptions that are checked, not taken on faith:
  *      what gouges at v gouges at more than v, and where a grain gouges a larger one does.  So one scene that gouges
