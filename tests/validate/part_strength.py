@@ -23,6 +23,8 @@ MAP = [
     ("lead face at 15 degrees", {"armature.lead_angle": "15 deg"}),
     ("lead face at 45 degrees", {"armature.lead_angle": "45 deg"}),
     ("rail of 450 K", {"rail.temperature": "450 K"}),
+    ("time steps of Courant number 0.2, for 0.45", {"scene.courant": 0.2}),
+    ("time steps of Courant number 0.6", {"scene.courant": 0.6}),
     ("craters measured at 0.05 mm, for 0.083", {"scene.measuring_depth": "0.05 mm"}),
     ("craters measured at 0.125 mm", {"scene.measuring_depth": "0.125 mm"}),
     ("armature of 450 K", {"armature.temperature": "450 K"}),
