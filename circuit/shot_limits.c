@@ -30,10 +30,10 @@ static before_shot before(const circuit_shot_armature *a)
 
 /* ---- the lead face ---- */
 
+/* Of the armature across the rails, that of its contact [m]. */
 static double width_of(const circuit_shot *s)
 {
-    const double width = s->model.armature.contact_width;
-    return isnan(width) ? s->rails.height : width;
+    return s->model.contact_area / s->model.armature.contact_length;
 }
 
 void circuit_shot_lead_face_start(circuit_shot *s)

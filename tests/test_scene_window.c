@@ -92,6 +92,11 @@ static void test_few_cells(void **state)
                   "warning: body ball: 1 cells of 4 mm across it along x", true);
     assert_int_equal(run("check " SHOT " --set scene.cells_per_radius=1.2"), 0);
     assert_true(contains("out.txt", "warning: particle: 2.4 cells across it"));
+    /* a crater measured at less than a quarter of a cell of 167 um, and at more */
+    assert_int_equal(run("check " SHOT " --set scene.measuring_depth='40 um'"), 0);
+    assert_true(contains("out.txt", "warning: scene.measuring_depth = 40 um: less than a quarter of a cell of 167 um"));
+    assert_int_equal(run("check " SHOT " --set scene.measuring_depth='43 um'"), 0);
+    assert_false(contains("out.txt", "scene.measuring_depth = "));
     /* a film whose cells would take a ninth level, and one that leaves them room */
 #define FILM                                                                                                \
     " --set rail.layers='[{material: steel_4340, thickness: 20 um}]' --set particle.radius='0.1 mm' --set " \

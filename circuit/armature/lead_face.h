@@ -6,7 +6,7 @@
  *   mu0 dH/dt = d/dx (rho_e dH/dx),   J = -dH/dx,   rho c dT/dt = rho_e J^2,   rho_e = rho_0 (1 + alpha (T - T_0))
  * with H = K on the rear and 0 on the lead face                                                   (C-28)
  * A melted cell keeps the melting temperature and its resistivity.  The rails' velocity skin effect, which keeps the
- * current at the rear for longer, is not in it, nor is what enters from the sides. */
+ * current at the rear for longer, is not in it, nor is what enters through the sides. */
 #ifndef BREECH_CIRCUIT_LEAD_FACE_H
 #define BREECH_CIRCUIT_LEAD_FACE_H
 

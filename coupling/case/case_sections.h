@@ -71,7 +71,7 @@ typedef struct {
     double half_bore;      /* from the rail's surface to the middle of the bore [m] */
     double width;          /* full width across the rail [m] */
     double chamfer_height; /* of the lead face, normal to the rail [m] */
-    double temperature;    /* NAN: the shot's, or that before it in `breech scene` [K] */
+    double temperature;    /* NAN: its lead face's in a study, else CASE_ROOM_TEMPERATURE [K] */
     double yield_scale;    /* factor on its flow stress, and on the hardness in the screen [1] */
 } case_projectile;
 

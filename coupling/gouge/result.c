@@ -61,8 +61,7 @@ static void judge_by_growth(scene_result *r, const gouge_scene *s)
     else
         snprintf(r->reason, sizeof r->reason,
                  "the groove's plastic power changes by %.2f e-folds from gauge to gauge, its crater is %.1f times as "
-                 "long as "
-                 "wide (limit %g): %.2f, %s %.2f",
+                 "long as wide (limit %g): %.2f, %s %.2f",
                  folds, r->gauge_length_over_width, s->limit_length_over_width, excess, decided ? "beyond" : "within",
                  s->growth_scatter);
 }

@@ -337,7 +337,7 @@ status output_history_map(history *h, const char *scene, const history_map *map)
     COLUMN(mass, "kg", "armature", s->mass)                                                             \
     COLUMN(rail_temperature, "K", "just ahead of the armature", s->rail_temperature)                    \
     COLUMN(armature_temperature, "K", "contact face", s->armature_temperature)                          \
-    COLUMN(lead_face_temperature, "K", "lead face of the armature", s->lead_face_temperature)                       \
+    COLUMN(lead_face_temperature, "K", "lead face of the armature", s->lead_face_temperature)           \
     COLUMN(film_temperature, "K", "melt on the contact face", s->film_temperature)                      \
     COLUMN(film_thickness, "m", "melt on one face", s->film_thickness)                                  \
     COLUMN(contact_spread, "m", "of the contact, over which the current enters", s->contact_spread)     \

@@ -10,7 +10,8 @@ const summary_key run_result_keys[] = {
     SUMMARY_NUMBER(scene_result, "severity", severity, "1",
                    "(lean x volume - plan area x height of the grain) / its volume; gouging grows above 0"),
     SUMMARY_NUMBER(scene_result, "groove_growth", groove_growth, "1/s",
-                   "rate of ln of the plastic power in the groove, past the grain; null: not followed so far"),
+                   "rate of ln of the plastic power in the groove, past the grain; null: not followed so far, or it "
+                   "has not left the grain"),
     SUMMARY_NUMBER(scene_result, "growth_per_way", growth_per_way, "1/m", "the same over the armature's way"),
     SUMMARY_NUMBER(scene_result, "front_speed_ratio", front_speed_ratio, "1",
                    "speed of the groove's front between its gauges over the armature's; null: not followed so far"),

@@ -29,9 +29,9 @@ static void doubt_depth(const case_inputs *in, doubt_sink *say, void *user)
     const case_impact *c = &in->onset.impact;
     const double cell = c->particle.radius / c->scene.cells_per_radius;
     char text[400];
-    if (!in->onset.has_body || isnan(cell) || !(c->scene.measuring_depth < GOUGE_ALMOST * 0.25 * cell)) return;
+    if (!in->onset.has_body || isnan(cell) || !(c->scene.measuring_depth < 0.25 * cell)) return;
     snprintf(text, sizeof text,
-             "scene.measuring_depth = %g um: less than a quarter of a cell of %g um, whose own unevenness may count",
+             "scene.measuring_depth = %g um: less than a quarter of a cell of %.3g um, whose own unevenness may count",
              1e6 * c->scene.measuring_depth, 1e6 * cell);
     say(user, text);
 }
