@@ -126,6 +126,16 @@ static void test_many_columns(void **state)
     free(text);
 }
 
+/* Bad input, exit code 2, and says so. */
+static void refuses(const char *arguments, const char *says)
+{
+    char *text;
+    const int code = run(arguments);
+    OK(host_file_read("err.txt", &text, NULL));
+    if (code != 2 || !strstr(text, says)) fail_msg("%s: exit code %d, %s", arguments, code, text);
+    free(text);
+}
+
 /* What is wrong is said, with its value, before there is a folder. */
 static void test_refused(void **state)
 {
@@ -152,21 +162,14 @@ static void test_refused(void **state)
     assert_string_equal(study_command(&study_bodies), "scene"); /* what takes a place has no command of its own */
     assert_string_equal(study_command(&study_strike), "strike");
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        char arguments[600], *text;
+        char arguments[600];
         snprintf(arguments, sizeof arguments, "sweep " SHOT_CASE " -o nothing --set sweep=\"%s\"", wrong[i].sweep);
-        assert_int_equal(run(arguments), 2);
-        OK(host_file_read("err.txt", &text, NULL));
-        if (!strstr(text, wrong[i].says)) fail_msg("%s: %s", wrong[i].sweep, text);
-        free(text);
+        refuses(arguments, wrong[i].says);
         assert_int_equal(access("nothing", F_OK), -1);
         snprintf(arguments, sizeof arguments, "check " SHOT_CASE " --set sweep=\"%s\"", wrong[i].sweep);
-        assert_int_equal(run(arguments), 2); /* check says the same */
+        refuses(arguments, wrong[i].says);
     }
-    assert_int_equal(run("sweep " SHOT_CASE " -o nothing"), 2);
-    char *text;
-    OK(host_file_read("err.txt", &text, NULL));
-    assert_non_null(strstr(text, "section `sweep` is missing"));
-    free(text);
+    refuses("sweep " SHOT_CASE " -o nothing", "section `sweep` is missing");
 }
 
 /* The place of an error is the value in the sweep's own file, not the key in the case that it builds on; and a run that
