@@ -291,9 +291,10 @@ def taylor(runs):
     return [bars_table(runs, BARS, BAR_METALS), profile_table(runs)], BARS_NOTE + "; radius of the bar of 214 m/s"
 
 
-# A plate onto a plate: title, material, cell [um]
-PLATES = [("threshold stress, annealed", "ofhc_copper_mts", 10), ("the same, cells of 5 um", "ofhc_copper_mts", 5),
-          ("threshold stress, half hard", "ofhc_copper_half_hard", 10), ("Johnson-Cook, annealed", "ofhc_copper", 10)]
+# A plate onto a plate: title, material, cold work (None: the material's), cell [um]
+PLATES = [("threshold stress, annealed", "ofhc_copper_mts", None, 10), ("the same, cells of 5 um", "ofhc_copper_mts", None, 5),
+          ("threshold stress, half hard", "ofhc_copper_half_hard", None, 10), ("Johnson-Cook, annealed", "ofhc_copper", None, 10),
+          ("Preston-Tonks-Wallace, annealed", "ofhc_copper_ptw", 0, 10), ("Steinberg-Guinan", "ofhc_copper_sg", None, 10)]
 SHOCK = 150.0  # [m/s] half of what the shock makes
 AHEAD = [60, 30, 15]  # [ns] before the shock
 LATE = 600  # [ns] after it the first release is there
@@ -316,11 +317,13 @@ def plate_row(title, times, speeds):
 
 def plate(runs):
     rows = [plate_row("measured", *measured(PLATE))]
-    for title, metal, cell in PLATES:
+    for title, metal, cold_work, cell in PLATES:
         settings = {"scene.cell": "%g um" % cell, "scene.coarse_cell": "%g um" % cell, "scene.end_time": "1.62 us",
                     "scene.window.y.hi": "%g um" % cell, "scene.window.z.hi": "%g um" % cell, "output.report": "no"}
         for body in range(3):
             settings["scene.bodies[%d].material" % body] = metal
+            if cold_work is not None:
+                settings["scene.bodies[%d].cold_work" % body] = "%g" % cold_work
         arguments = ["scene", "cases/verification/plate_impact"]
         for key, value in settings.items():
             arguments += ["--set", "%s=%s" % (key, value)]
