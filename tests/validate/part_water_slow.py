@@ -6,22 +6,23 @@ import math
 import os
 
 from pages import Column, Table
-from part_water import CASE, FAR, ROW, row
+from part_water import CASE, FAR, ROW, fracture, row
 from tube_wave import wave_at
 
 from breech.needs import h5py, numpy as np
 
 DENSITY, SPEED, SLOPE = 1000.0, 1480.0, 1.92  # of the water
 PLATE_BODY, RADIUS = 1, 32.0  # its number among the bodies; the bore's [mm]
-NO_RATE = {"materials[1]__damage_rate_power": 0}  # the variant of U14 that tears
+NO_RATE = {"with_rate": False}  # the variant of U14 that tears
 
 
-def strike(runs, name, **settings):
+def strike(runs, name, with_rate=True, **settings):
     """The summary, with its folder."""
     arguments = ["strike", CASE, "--processes", "1"]
     for key, value in {"output__report": "no", **settings}.items():
         arguments += ["--set", "%s=%s" % (key.replace("__", "."), value)]
-    folder, _ = runs.run("water_slow_" + name, arguments)
+    with fracture(runs, with_rate):
+        folder, _ = runs.run("water_slow_" + name, arguments)
     with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
         return {**json.load(file), "folder": folder}
 
