@@ -130,7 +130,7 @@ def al6061(runs):
 
 
 def al5083(runs):
-    """From where the bars have stopped ringing; at 77 K no law of a file here is meant to hold."""
+    """From where the bars have stopped ringing; not at 77 K, which no scene has."""
     curves = {name: curve for name, curve in measured_curves(CURVES_5083, LEAST_STRAIN).items() if curve[0] > 200}
     rows, fast, every = beside(runs, AL5083, curves)
     rows.append(["those above 2000 /s"] + [percent(fast[title]) for title in AL5083])
@@ -256,8 +256,8 @@ WAYS = [0.25, 1.01, 2.02, 3.03, 4.94, 7.47, 9.99, 12.51]  # [mm] from the foot
 HALF_SLICE = 0.25  # [mm]
 
 
-def measured(path):
-    """The columns of a file of tests/data, two of them."""
+def two_columns(path):
+    """Of a file of tests/data."""
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         rows = [row for row in csv.reader(file) if row[0][0] != "#"]
     return [[float(row[k]) for row in rows[1:]] for k in range(2)]
@@ -280,7 +280,7 @@ def profile_table(runs):
     folders = [bar_run(runs, metal, PROFILED) for _, metal in BAR_METALS]
     rows = []
     for way in WAYS:
-        wanted = numpy.interp(way, *measured(PROFILE))
+        wanted = numpy.interp(way, *two_columns(PROFILE))
         found = [radius_at(folder, way) for folder in folders]
         rows.append(["%.2f" % way, "%.2f" % wanted, *["%.2f (%+.1f %%)" % (r, 100 * (r / wanted - 1)) for r in found]])
     columns = [Column("way from the foot [mm]"), Column("radius measured [mm]", 0.0)]
@@ -312,11 +312,11 @@ def plate_row(title, times, speeds):
     shock = passes(times, speeds, SHOCK)
     plateau = numpy.mean([numpy.interp(shock + 1e-3 * after, times, speeds) for after in range(*PLATEAU)])
     return [title, *["%.1f" % numpy.interp(shock - 1e-3 * ahead, times, speeds) for ahead in AHEAD], "%.3f" % shock,
-            "%.1f" % plateau, "%.1f" % (numpy.interp(shock + 1e-3 * LATE, times, speeds) - plateau)]
+            "%.1f" % plateau, "%+.1f" % (numpy.interp(shock + 1e-3 * LATE, times, speeds) - plateau)]
 
 
 def plate(runs):
-    rows = [plate_row("measured", *measured(PLATE))]
+    rows = [plate_row("measured", *two_columns(PLATE))]
     for title, metal, cold_work, cell in PLATES:
         settings = {"scene.cell": "%g um" % cell, "scene.coarse_cell": "%g um" % cell, "scene.end_time": "1.62 us",
                     "scene.window.y.hi": "%g um" % cell, "scene.window.z.hi": "%g um" % cell, "output.report": "no"}
@@ -333,7 +333,7 @@ def plate(runs):
             rows.append(plate_row(title, 1e6 * face["time"][:], face["velocity_x"][:]))
     columns = [Column("metal")] + [Column("%d ns before the shock [m/s]" % ahead, 0.2) for ahead in AHEAD]
     columns += [Column("shock [us]", 0.01), Column("plateau [m/s]", 0.01),
-                Column("%d ns after the shock, over the plateau [m/s]" % LATE, 0.3)]
+                Column("%d ns after the shock, less the plateau [m/s]" % LATE, 0.3)]
     return [Table(columns, rows)], (
         "cases/verification/plate_impact to 1.62 us, of each metal: velocity of the free face; the shock where it "
         "passes %g m/s, its plateau the mean from %d to %d ns later" % (SHOCK, *PLATEAU))
