@@ -70,6 +70,7 @@ typedef struct {
     lane *lane;     /* owned */
     strewn *strewn; /* one a population, owned */
     double *sum;    /* [n x shots x SUMS], owned */
+    double *share;  /* of each thing that a world draws, [things x MC_WORLDS], 0 .. 1, owned */
     mc_result *out; /* sums of what is strewn until they are means */
     uint64_t drawn; /* grains so far */
     bool stopped;
@@ -279,27 +280,30 @@ static void count(mc *m, mc_result *out, int world, int number)
     }
 }
 
-static double either_way(gsl_rng *rng)
+/* Latin hypercube (docs/theory/onset.md): one world in each MC_WORLDS-th of what a thing may be. */
+static void draw_thing(mc *m, double share[MC_WORLDS])
 {
-    return 2.0 * gsl_rng_uniform(rng) - 1.0;
+    for (int w = 0; w < MC_WORLDS; w++) share[w] = (w + gsl_rng_uniform(m->rng)) / MC_WORLDS;
+    gsl_ran_shuffle(m->rng, share, MC_WORLDS, sizeof *share);
 }
 
-static gouge_law_draw draw_of(gsl_rng *rng, double alike)
+static double either_way(double share)
 {
-    gouge_law_draw draw = { .alike = alike };
-    draw.in_band = gsl_rng_uniform(rng);
-    draw.own = either_way(rng);
-    return draw;
+    return 2.0 * share - 1.0;
 }
 
-static void new_world(mc *m)
+static void begin_world(mc *m, int world)
 {
-    const double alike = either_way(m->rng);
+    const double *share = m->share + world, alike = either_way(*share);
     for (int i = 0; i < m->plan->n; i++) {
         lane *l = &m->lane[i], *same = l;
         for (int j = 0; j < i && same == l; j++)
             if (m->lane[j].draws == l->draws) same = &m->lane[j];
-        for (int k = 0; k < l->grains->n; k++) l->draw[k] = same == l ? draw_of(m->rng, alike) : same->draw[k];
+        for (int k = 0; k < l->grains->n; k++, share += 2 * (ptrdiff_t)MC_WORLDS)
+            l->draw[k] = same == l ? (gouge_law_draw){ .in_band = share[MC_WORLDS],
+                                                       .alike = alike,
+                                                       .own = either_way(share[2 * MC_WORLDS]) }
+                                   : same->draw[k];
     }
 }
 
@@ -498,6 +502,17 @@ static status make_strewn(mc *m, int index)
     return status_ok();
 }
 
+/* u_a, then u_b and u_o of each family of each surface. */
+static status draw_worlds(mc *m)
+{
+    size_t things = 1;
+    for (int i = 0; i < m->plan->n; i++) things += 2 * (size_t)m->lane[i].grains->n;
+    m->share = calloc(things * MC_WORLDS, sizeof *m->share);
+    CHECK(m->share, STATUS_MEMORY, "no memory for the Monte Carlo");
+    for (size_t k = 0; k < things; k++) draw_thing(m, m->share + k * MC_WORLDS);
+    return status_ok();
+}
+
 static status set_up(mc *m, mc_result *out)
 {
     const mc_plan *p = m->plan;
@@ -516,7 +531,7 @@ static status set_up(mc *m, mc_result *out)
     gsl_rng_set(m->rng, (unsigned long)p->seed);
     for (int i = 0; i < p->n; i++) TRY(make_lane(p, i, &m->lane[i]));
     for (int k = 0; k < out->populations; k++) TRY(make_strewn(m, k));
-    return status_ok();
+    return draw_worlds(m);
 }
 
 static void lane_free(lane *l)
@@ -538,6 +553,7 @@ static void tear_down(mc *m)
     free(m->lane);
     free(m->strewn);
     free(m->sum);
+    free(m->share);
 }
 
 static status run_all(mc *m, mc_result *out)
@@ -546,7 +562,7 @@ static status run_all(mc *m, mc_result *out)
     progress *shown = m->plan->progress;
     if (shown) host_progress_task(shown, "random shots", 0.0, 0);
     for (int w = 0; w < MC_WORLDS && !m->stopped; w++) {
-        new_world(m);
+        begin_world(m, w);
         if (shown) host_progress_update(shown, (double)w / MC_WORLDS, 0);
         for (int h = 0; h < in_world && !stop_asked(m); h++) {
             for (int i = 0; i < m->plan->n; i++) m->lane[i].rims = 0;

@@ -8,6 +8,7 @@
  * the grid has (a share u_o of that; threshold.h).  u_a is one number for all, since cells and metals err alike on all
  * surfaces; u_b and u_o are drawn for every surface and family:
  * v_th(r) = low(r) + u_b (high(r) - low(r)) + u_a alike + u_o own,  u_a and u_o in -1 .. 1.
+ * Of each number one world lies in every MC_WORLDS-th of what it may be, in an order of its own: a Latin hypercube.
  * A history is a rail under `shots` shots.  A gouge leaves a rim downstream, which is a grain of the same family to
  * the next shot: its place and height, in radii of the grain that made it, by the scenes that gouged (gouge_law.h);
  * its radius is its height over the family's aspect.  What else the shots leave for those after them is the caller's
@@ -19,7 +20,7 @@
 #include "coupling/host/progress.h"
 #include "coupling/study/search/family.h"
 
-enum { MC_WORLDS = 200, MC_BINS = 1000, MC_PLACES = 1024, MC_PIECES = 20 };
+enum { MC_WORLDS = 1000, MC_BINS = 1000, MC_PLACES = 1024, MC_PIECES = 20 };
 
 /* How a rail is another one than that of `grains`: it is warmer [K], its layers are worn by so much [m], so much of the
  * armature's metal lies on it [m]. */
