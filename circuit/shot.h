@@ -287,9 +287,9 @@ base_status circuit_rails_check(const circuit_shot_rails *rails);
  */
 base_status circuit_rails_ladder(const circuit_shot_rails *rails, double f_top, circuit_ladder *out);
 
-/* The frequency that level skin takes for these supplies when none is given, equation (C-6) [Hz]; NAN if nothing fires.
- */
-double circuit_shot_effective_frequency(const circuit_supply_list supplies[CIRCUIT_SUPPLY_KINDS]);
+/* The frequency that level skin takes when none is given, equation (C-6), by the supplies that fire before
+ * options.max_time [Hz]; NAN if none does. */
+double circuit_shot_effective_frequency(const circuit_shot_config *c);
 
 #ifdef __cplusplus
 }

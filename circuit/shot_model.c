@@ -144,7 +144,7 @@ static void shunt_rates(const shot_model *m, const double *z, const shot_forces 
 
 /* Currents add up from the breech on, I_f = sum over feeds g <= f; every segment but the last ends at the next feed,
  * the last at the armature (voltage U), with S_g - G_g V_g the slope of the current that joins at feed g:
- *   V_f = V_f+1 (or U) + L_f sum_g<=f (S_g - G_g V_g) + (the rest of segment f's voltage)           (C-1)
+ *   V_f = V_f+1 (or U) + L_f sum_g<=f (S_g - G_g V_g) + (the rest of segment f's voltage)   (C-14), (C-1)
  * value[f]: what V_f must be at these V; z's voltages are not touched. */
 typedef struct {
     double inductance[SHOT_MAX_FEEDS], rest[SHOT_MAX_FEEDS];
@@ -399,7 +399,7 @@ static void group_roots(const supply_group *g, double t, const double *y, double
         g->kind->flow(g, t, y, &f);
         root[1] = f.push - f.pull * V;
     }
-    if (circuit_supply_conducts(g) && !g->reverses) root[1] = y[0];
+    if (circuit_supply_blocks(g)) root[1] = y[0];
 }
 
 void circuit_shot_roots(const void *model, double t, const double *y, double *g)

@@ -48,15 +48,15 @@ const base_param circuit_shot_rails_params[] = {
 };
 
 /* f = 1/(4 t_r), t_r = spread of the firing times + mean rise time of the units that fire                 (C-6) */
-double circuit_shot_effective_frequency(const circuit_supply_list supplies[CIRCUIT_SUPPLY_KINDS])
+double circuit_shot_effective_frequency(const circuit_shot_config *c)
 {
     double first = INFINITY, last = -INFINITY, rise = 0.0, count = 0.0;
     for (int s = 0; s < CIRCUIT_SUPPLY_KINDS; s++) {
         const supply_kind *kind = circuit_supply_kinds[s];
-        for (int k = 0; k < supplies[s].n; k++) {
-            const void *p = (const char *)supplies[s].item + (size_t)k * kind->size;
+        for (int k = 0; k < c->supplies[s].n; k++) {
+            const void *p = (const char *)c->supplies[s].item + (size_t)k * kind->size;
             const circuit_supply_common at = circuit_supply_common_of(p);
-            if (!isfinite(at.fire_at)) continue;
+            if (!(at.fire_at <= c->options.max_time)) continue;
             first = fmin(first, at.fire_at);
             last = fmax(last, at.fire_at);
             rise += at.count * kind->rise(p);
@@ -145,7 +145,7 @@ status circuit_rails_ladder(const circuit_shot_rails *rails, double f_top, circu
  * length over that; nor does the bank change its current faster than a quarter of a sine (C-6) does.      (C-13) */
 static double band_top(const circuit_shot_config *c)
 {
-    const double f_pulse = circuit_shot_effective_frequency(c->supplies);
+    const double f_pulse = circuit_shot_effective_frequency(c);
     const double v0 = c->armature.velocity, v2 = v0 * v0 + 2.0 * supplies_energy(c) / c->armature.mass;
     const double f_contact = sqrt(v2) / (2.0 * PI * c->armature.contact_length);
     return fmax(f_contact, 10.0 * (isnan(f_pulse) ? 100.0 : f_pulse));
@@ -185,6 +185,6 @@ status circuit_shot_rails_fit(const circuit_shot_config *c, circuit_rails_load *
     }
     const bool diffusing = c->rails.level == CIRCUIT_SHOT_RAILS_DIFFUSING;
     double f = diffusing ? c->rails.ladder_frequency : c->rails.frequency;
-    if (isnan(f)) f = diffusing ? band_top(c) : circuit_shot_effective_frequency(c->supplies);
+    if (isnan(f)) f = diffusing ? band_top(c) : circuit_shot_effective_frequency(c);
     return circuit_rails_ladder(&c->rails, isnan(f) ? 1000.0 : f, &out->ladder);
 }

@@ -106,7 +106,7 @@ static void groups_settle(circuit_shot *s, const int *found)
         double *y = circuit_shot_y(s) + g->first;
         if (g->gate == GATE_WAITING && root && root[1]) s->forced[k] = true;
         const bool ends = y[0] <= 1e-12 * s->scale[g->first] && circuit_dae_yp(s->solver)[g->first] < 0.0;
-        if (circuit_supply_conducts(g) && !g->reverses && ((root && root[1]) || ends)) group_block(s, k);
+        if (circuit_supply_blocks(g) && ((root && root[1]) || ends)) group_block(s, k);
         if (g->gate == GATE_BLOCKED || !g->kind->next) continue;
         const bool over = circuit_supply_stage_root(g, s->t, y) <= 1e-12;
         if ((root && root[0]) || over) switched(s, g->kind->next(g, y), k);

@@ -133,7 +133,7 @@ wave_load mpm_wave_load(const mpm_wave *w, const mpm_body *b, const law *k, doub
     return (wave_load){ .on = true,
                         .axis = b->traction_face / 2,
                         .inwards = b->traction_face % 2 ? -1 : 1,
-                        .base = p + Z * u,
+                        .base = k->p_start + p + Z * u,
                         .Z = Z,
                         .least = k->strength.none.least_pressure };
 }

@@ -6,9 +6,10 @@
  *
  * The fluid that would lie before the face is left out.  There the incident wave and what comes back add up: with the
  * incident wave's own velocity, p_i = rho0 (c0 + s u_i) u_i, and the slope of that curve, Z = rho0 (c0 + 2 s u_i),
- *   p = p_i + Z (u_i - u)                                                                                     (W-2)
- * u the face's velocity, inwards: u = u_i where nothing has come back, and a wave that comes back leaves.  The fluid
- * left out takes no tension either: p is at least the cavitation pressure.  The load goes with the points of the face.
+ *   p = p_0 + p_i + Z (u_i - u)                                                                               (W-2)
+ * p_0 the fluid's pressure at the start, u the face's velocity, inwards: u = u_i where nothing has come back, and a
+ * wave that comes back leaves.  The fluid left out takes no tension either: p is at least the cavitation pressure.  The
+ * load goes with the points of the face.
  * Its work and its impulse are external ones in the ledger. */
 #ifndef BREECH_MPM_WAVE_H
 #define BREECH_MPM_WAVE_H

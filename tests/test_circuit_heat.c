@@ -177,6 +177,20 @@ static void pieces_add_up(void **state)
     c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ DEFAULT_SHOT_GROUPS, modules };
     for (int k = 0; k < DEFAULT_SHOT_GROUPS; k++) modules[k].position = 0.0;
     check_ledger("constant gradients", &c);
+    const double gradient = c.rails.resistance_gradient;
+    double muzzle[2];
+    c.rails.resistance_gradient = 0.0; /* nothing to warm by: the same shot, sliced or not */
+    for (int k = 0; k < 2; k++) {
+        c.rails.slices = 4 * k;
+        circuit_shot *s = NULL;
+        OK(circuit_shot_create(&c, &s));
+        OK(circuit_shot_advance(s, INFINITY, NULL));
+        muzzle[k] = circuit_shot_result(s).muzzle_velocity;
+        circuit_shot_free(s);
+    }
+    assert_true(muzzle[0] > 100.0);
+    assert_near(muzzle[1], muzzle[0], 1e-6 * muzzle[0]);
+    c.rails.slices = 0, c.rails.resistance_gradient = gradient;
     c.armature.preload = 1e9;
     check_ledger("held", &c);
 }

@@ -654,7 +654,13 @@ static void shot_of_default_case(void **state)
     circuit_shot *s = run(&c);
     const circuit_shot_summary r = circuit_shot_result(s);
     const circuit_shot_state now = circuit_shot_now(s);
-    const double frequency = circuit_shot_effective_frequency(c.supplies);
+    const double frequency = circuit_shot_effective_frequency(&c);
+    const double last = modules[12].fire_at;
+    modules[12].fire_at = 1.01 * c.options.max_time; /* both mean never */
+    const double by_time = circuit_shot_effective_frequency(&c);
+    modules[12].fire_at = INFINITY;
+    assert_true(by_time == circuit_shot_effective_frequency(&c) && by_time > frequency);
+    modules[12].fire_at = last;
     print_message("f %.1f Hz\n", frequency);
     print_message(
         "peak %.1f kA, muzzle %.1f m/s at %.3f ms, efficiency %.3f, energy error %.1e, worst %.1e, %llu steps\n",

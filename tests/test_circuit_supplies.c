@@ -353,6 +353,36 @@ static void profile_is_followed(void **state)
     assert_non_null(strstr(st.text, "current_profiles[0]"));
 }
 
+/* Two pulses with a rest between: a given current goes on after a zero. */
+static void profile_comes_back(void **state)
+{
+    (void)state;
+    for (int rest = 0; rest < 2; rest++) {
+        circuit_supply_point points[] = { { 0.0, 0.0 },    { 4e-4, 3e5 },   { 8e-4, 0.0 },
+                                          { 1.2e-3, 3e5 }, { 1.6e-3, 0.0 }, { 1.6e-3, 0.0 } };
+        int n = 5;
+        if (rest) {
+            for (int k = 5; k > 3; k--) points[k] = points[k - 1], points[k].time += 4e-4;
+            points[3] = (circuit_supply_point){ 1.2e-3, 0.0 }, n = 6;
+        }
+        circuit_supply_profile p;
+        base_params_default(circuit_supply_profile_params, &p);
+        p.points.n = n, p.points.item = points;
+        circuit_shot_config c = plain_barrel();
+        c.supplies[CIRCUIT_SUPPLY_profile] = (circuit_supply_list){ 1, &p };
+        circuit_shot *s = NULL;
+        OK(circuit_shot_create(&c, &s));
+        OK(circuit_shot_advance(s, points[1].time, NULL));
+        const double once = circuit_shot_now(s).v;
+        OK(circuit_shot_advance(s, points[n - 2].time, NULL));
+        assert_near(circuit_shot_now(s).current, 3e5, 1e-9 * 3e5);
+        assert_true(circuit_shot_now(s).v > 2.0 * once);
+        OK(circuit_shot_advance(s, INFINITY, NULL));
+        assert_near(circuit_shot_now(s).ledger.energy_error, 0.0, 1e-6);
+        circuit_shot_free(s);
+    }
+}
+
 /* A pulse much shorter than what came before is not stepped over. */
 static void late_spike(void **state)
 {
@@ -674,6 +704,7 @@ int main(void)
         cmocka_unit_test(opening_switch),
         cmocka_unit_test(alternator_pulses),
         cmocka_unit_test(profile_is_followed),
+        cmocka_unit_test(profile_comes_back),
         cmocka_unit_test(late_spike),
         cmocka_unit_test(ringing),
         cmocka_unit_test(reversal_through_a_crowbar),

@@ -84,6 +84,29 @@ static void test_reflection(void **state)
     }
 }
 
+/* Water that rests under a pressure stays at rest where a wave of nothing comes in: the face gives what it rests
+ * under. */
+static void test_rest(void **state)
+{
+    (void)state;
+    mpm_material m = water();
+    m.eos = MPM_EOS_stiffened_gas;
+    m.specific_heat = 157.6, m.gas_gamma = 7.415, m.gas_stiffness = 296.2e6, m.gas_pressure = 101325;
+    m.cavitation_pressure = -101325;
+    for (int k = 0; k < 2; k++) {
+        SCENE_LOCAL(s);
+        mpm_body *b = column(&s, &m, 10e-3, 0, 1e-3);
+        b->wave_pressure = 0;
+        if (k == 0) s.surroundings = 0;
+        if (k == 1) b->pressure = 1e5;
+        s.axis[0].boundary[1] = MPM_BOUNDARY_FIXED;
+        mpm *solver = scene_make(&s, 1);
+        assert_ok(mpm_advance(solver, 20e-6, NULL));
+        assert_near(scene_mean(solver, MPM_velocity, 0, 0), 0, 1e-4); /* -0.02 m/s where the face gives nothing */
+        mpm_free(solver);
+    }
+}
+
 /* Water that runs away from the face is not pulled back. */
 static void test_no_pull(void **state)
 {
@@ -302,9 +325,10 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reflection), cmocka_unit_test(test_no_pull),          cmocka_unit_test(test_piston_wave),
-        cmocka_unit_test(test_plate),      cmocka_unit_test(test_sleeps),           cmocka_unit_test(test_held),
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_piston_on_demand), cmocka_unit_test(test_light_piston),
+        cmocka_unit_test(test_reflection),   cmocka_unit_test(test_no_pull), cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_piston_wave),  cmocka_unit_test(test_plate),   cmocka_unit_test(test_sleeps),
+        cmocka_unit_test(test_held),         cmocka_unit_test(test_refused), cmocka_unit_test(test_piston_on_demand),
+        cmocka_unit_test(test_light_piston),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

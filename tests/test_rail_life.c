@@ -298,6 +298,19 @@ static void test_options(void **state)
     assert_true(near(number(place_of(s, 1), "life"), number(place_of(s, 1), "without_heat"), 0.1));
     assert_true(isnan(number(s, "probability_cracked")));
     cJSON_Delete(s);
+    static const struct {
+        const char *set;
+        double want;
+    } known[] = { { "materials[0].fatigue_limit=0.1", 0.0 }, /* lasts for good */
+                  { "materials[0].fatigue_A_spread=0 --set study.shots=2", 0.0 } };
+    for (int k = 0; k < 2; k++) {
+        char line[400];
+        snprintf(line, sizeof line, "life " CASE " -o more/known%d" FEW "--set %s", k, known[k].set);
+        assert_int_equal(run(line), 0);
+        s = summary_of(k ? "more/known1" : "more/known0");
+        assert_true(number(s, "probability_cracked") == known[k].want);
+        cJSON_Delete(s);
+    }
 }
 
 /* The last was stopped before its second shot. */

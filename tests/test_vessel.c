@@ -250,7 +250,7 @@ static void test_droplet(void **state)
 {
     (void)state;
     static const char *const files[] = { "case.yaml", "three.yaml", "sphere.yaml" };
-    double pressure[3], time[3];
+    double pressure[3], time[3], surface[3];
     for (int i = 0; i < 3; i++) {
         char line[400];
         snprintf(line, sizeof line, "vessel " DROPLET "/%s -o run%d --force --set output.report=no", files[i], i);
@@ -260,12 +260,14 @@ static void test_droplet(void **state)
         static const char *const dirs[] = { "run0", "run1", "run2" };
         cJSON *s = summary_of(dirs[i]);
         pressure[i] = number(s, "end_pressure"), time[i] = number(s, "rupture_time");
+        surface[i] = number(s, "surface_pressure");
         const double outer = 0.5e-3 * number(s, "rupture_swelling"), inner = outer - number(s, "rupture_film");
         if (i == 0) /* G-2, the liquid as good as incompressible: the bubble and the liquid fill the film */
             near(pow(number(s, "rupture_bubble"), 2.0), inner * inner - 0.4505e-3 * 0.4505e-3 + 1e-8, 1e-3);
         cJSON_Delete(s);
     }
     assert_true(time[1] < time[0] && pressure[1] > 0.3 * 148e3 && pressure[0] < 0.02 * 148e3);
+    near(surface[0], 250.0, 1e-9), near(surface[2], 500.0, 1e-9); /* 25 mN/m over 0.1 mm: a tube's, a ball's */
     /* the same steps of time, whatever other films there are */
     assert_int_equal(run("vessel " DROPLET " -o again --force --quiet"), 0);
     cJSON *one = summary_of("run0"), *two = summary_of("again");

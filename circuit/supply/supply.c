@@ -50,6 +50,11 @@ bool circuit_supply_conducts(const supply_group *g)
     return g->gate == GATE_ON;
 }
 
+bool circuit_supply_blocks(const supply_group *g)
+{
+    return circuit_supply_conducts(g) && !g->reverses && !g->kind->source;
+}
+
 bool circuit_supply_algebraic(const supply_group *g, int j)
 {
     return g->kind->algebraic && g->kind->algebraic(g, j);

@@ -96,6 +96,8 @@ extern const supply_kind *const circuit_supply_kinds[]; /* CIRCUIT_SUPPLY_KINDS 
 
 circuit_supply_common circuit_supply_common_of(const void *p); /* p: any kind's struct */
 bool circuit_supply_conducts(const supply_group *g);
+/* Its thyristor or diode ends it when its current has come to zero; a given current goes on through zero. */
+bool circuit_supply_blocks(const supply_group *g);
 /* The group's flow and rates: d[j] = dy_j/dt, or the value y_j must have where it is algebraic. */
 void circuit_supply_rates(const supply_group *g, double t, const double *y, double V, double *d, supply_flow *f);
 bool circuit_supply_algebraic(const supply_group *g, int j);

@@ -187,6 +187,15 @@ static life_place lives_at(const work *w, const double *const *of, int shots, co
     return life_along_place(&w->rail, &all, factor);
 }
 
+/* Probability that a place is cracked that has spent so much of its life: where A times its unknown factor spends as
+ * much as A times `spent` = 1 would; NaN where the factor's spread is not known. */
+static double cracked(double spent, double spread)
+{
+    if (isnan(spread)) return NAN;
+    if (!(spent > 0.0)) return 0.0;
+    return spread > 0.0 ? gsl_cdf_ugaussian_P(log(spent) / spread) : spent >= 1.0;
+}
+
 static void judge_place(const work *w, int k, const double **of, double spread, rail_life_result *r)
 {
     static const int alike = 0;
@@ -201,6 +210,7 @@ static void judge_place(const work *w, int k, const double **of, double spread, 
     p->without_heat = finite_or_nan(cold.life), p->depth_without_heat = cold.depth;
     p->depth = is.depth, p->angle = is.angle;
     p->cause = RAIL_LIFE_ENDLESS;
+    r->probability = fmax(r->probability, cracked(is.spent, spread));
     if (isnan(p->life)) return;
     const double by_contact = largest_of(contact + depth, w->rail.fan.n),
                  by_heat = largest_of(heat + depth, w->rail.fan.n);
@@ -210,9 +220,6 @@ static void judge_place(const work *w, int k, const double **of, double spread, 
         const double factor = exp((q ? -1.0 : 1.0) * gsl_cdf_ugaussian_Qinv(FIVE_PERCENT) * spread);
         p->interval[q] = lives_at(w, of, r->shots, w->flight, factor).life;
     }
-    /* cracked after these shots: where A times its unknown factor spends as much as A times `spent` = 1 would */
-    if (!isnan(spread) && spread > 0.0)
-        r->probability = fmax(r->probability, is.spent > 0.0 ? gsl_cdf_ugaussian_P(log(is.spent) / spread) : 0.0);
 }
 
 static void choose_weakest(rail_life_result *r)

@@ -80,7 +80,7 @@ static status gradients_fill(const circuit_shot_rails *rails, inductance_answer 
 static double surface_frequency(const circuit_shot_config *launcher)
 {
     if (!isnan(launcher->rails.frequency)) return launcher->rails.frequency;
-    const double f = circuit_shot_effective_frequency(launcher->supplies);
+    const double f = circuit_shot_effective_frequency(launcher);
     return isnan(f) ? 1000.0 : f;
 }
 

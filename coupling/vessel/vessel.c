@@ -252,9 +252,10 @@ status vessel_run(const vessel_how *how, vessel_result *out)
 {
     model m;
     *out = nothing();
-    for (int k = 0; k < how->is->bubbles.n; k++)
-        out->laplace = fmax(out->laplace, 2.0 * how->is->surface_tension / how->is->bubbles.item[k].radius);
     status s = model_make(how, &m);
+    for (int k = 0; k < how->is->bubbles.n && s.code == STATUS_OK; k++)
+        out->laplace =
+            fmax(out->laplace, (m.dimension - 1) * how->is->surface_tension / how->is->bubbles.item[k].radius);
     if (s.code == STATUS_OK) s = integrate(how, &m, out);
     model_free(&m);
     return s;

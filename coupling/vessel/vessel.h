@@ -52,7 +52,8 @@ typedef struct {
     vessel_state end;
     double peak_pressure; /* [Pa] */
     double vent_time;     /* from there until the pressure is half; NAN: not reached [s] */
-    double laplace;       /* largest 2 surface_tension/R of a bubble, left out of all that is above [Pa] */
+    double
+        laplace; /* largest surface_tension/R of a bubble, twice that of a ball's, left out of all that is above [Pa] */
     int steps;
 } vessel_result;
 

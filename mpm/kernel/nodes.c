@@ -238,18 +238,23 @@ static void absorb(node_state *n, const wall *w, wave_speeds c, double dt, tally
     }
 }
 
+/* A wall that says what the velocity is. */
+static void hold_at(const wall *w, double dt, node_state *n, tally *sum)
+{
+    static const double rest[3] = { 0, 0, 0 };
+    const double *velocity = w->kind == MPM_BOUNDARY_PRESCRIBED ? w->velocity : rest;
+    for (int q = 0; q < 3; q++)
+        if (w->kind != MPM_BOUNDARY_SYMMETRY || q == w->axis) hold(n, q, velocity[q], dt, sum);
+}
+
 static void apply_walls(const mpm *m, const node_side *side, int cell, double dt, node_state *n, tally *sum)
 {
-    const wall *w = side->walls;
-    static const double rest[3] = { 0, 0, 0 };
     for (int i = 0; i < side->n_walls; i++) {
-        const double *velocity = w[i].kind == MPM_BOUNDARY_PRESCRIBED ? w[i].velocity : rest;
-        if (w[i].kind == MPM_BOUNDARY_SYMMETRY)
-            hold(n, w[i].axis, 0, dt, sum);
-        else if (w[i].kind == MPM_BOUNDARY_ABSORBING)
-            absorb(n, &w[i], speeds_at(m, side->brick, cell), dt, sum);
+        const wall *w = &side->walls[i];
+        if (w->kind == MPM_BOUNDARY_ABSORBING)
+            absorb(n, w, speeds_at(m, side->brick, cell), dt, sum);
         else
-            for (int q = 0; q < 3; q++) hold(n, q, velocity[q], dt, sum);
+            hold_at(w, dt, n, sum);
     }
 }
 
@@ -474,7 +479,7 @@ static void one_node(mpm *m, const scratch *at, int count, int cell, const int i
     for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum);
     for (int s = 0; s < here; s++) {
         for (int i = 0; count > 1 && i < side[s].n_walls; i++)
-            if (side[s].walls[i].kind == MPM_BOUNDARY_SYMMETRY) hold(&side[s].state, side[s].walls[i].axis, 0, dt, sum);
+            if (side[s].walls[i].kind != MPM_BOUNDARY_ABSORBING) hold_at(&side[s].walls[i], dt, &side[s].state, sum);
         if (at->gas) at->swept[at->gas - 1] += volume_made(&side[s].state, dt);
         finish_node(&side[s].state, brick_nodes(m, side[s].brick)[cell], sum);
     }

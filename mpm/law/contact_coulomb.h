@@ -9,7 +9,7 @@ CONTACT_VALUE(COULOMB_FRICTION, "friction", "1", 0.0, 0.0, 10.0, "Coulomb coeffi
 CONTACT_VALUE(COULOMB_SHEAR_LIMIT, "shear_limit", "Pa", CONTACT_NO_LIMIT, 0.0, CONTACT_NO_LIMIT,
               "upper limit of the friction stress; left out: none but the weaker side's strength")
 CONTACT_VALUE(COULOMB_BOND_STRENGTH, "bond_strength", "Pa", 0.0, 0.0, 1e12,
-              "welded until the traction exceeds it; 0: never bonded")
+              "held together where the traction is below it; 0: never bonded")
 CONTACT_END(coulomb)
 
 #ifdef CONTACT_IMPULSE
