@@ -83,6 +83,30 @@ static void test_minimal(void **state)
     case_free(c);
 }
 
+/* Cells of an axis: its own, else the scene's, else the smallest that a rule of refinement asks for. */
+static void test_cell_of_rules(void **state)
+{
+    (void)state;
+#define RULES "  refine: [{around: ball, within: 1 mm, cell: 0.4 mm}, {shock: all, jump: 20 m/s, cell: 0.5 mm}]\n"
+    static const struct {
+        const char *lines;
+        double x, y;
+    } of[] = { { RULES, 0.4e-3, 0.4e-3 },
+               { RULES "  cell: 0.1 mm\n", 0.1e-3, 0.1e-3 },
+               { RULES "  window: {x: {cell: 1 mm}}\n", 1e-3, 0.4e-3 },
+               { RULES "  cell: 0.1 mm\n  window: {x: {cell: 1 mm}}\n", 1e-3, 0.1e-3 } };
+#undef RULES
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        char text[1000];
+        snprintf(text, sizeof text, TWO "%s", of[i].lines);
+        breech_case *c = read_good(text);
+        const mpm_axis *axis = c->bodies.scene.axis;
+        if (fabs(axis[0].fine / of[i].x - 1.0) > 1e-12 || fabs(axis[1].fine / of[i].y - 1.0) > 1e-12)
+            fail_msg("%s%g and %g m", of[i].lines, axis[0].fine, axis[1].fine);
+        case_free(c);
+    }
+}
+
 /* Another value than the default, within the row's range. */
 static void change(const base_param *p, void *member)
 {
@@ -758,21 +782,14 @@ static void test_example(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_minimal),
-        cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_every_shape),
-        cmocka_unit_test(test_every_contact),
-        cmocka_unit_test(test_old_keys),
-        cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_every_probe),
-        cmocka_unit_test(test_probe_forms),
-        cmocka_unit_test(test_gouging_as_text),
-        cmocka_unit_test(test_run),
-        cmocka_unit_test(test_samples),
-        cmocka_unit_test(test_report),
-        cmocka_unit_test(test_example),
+        cmocka_unit_test(test_minimal),     cmocka_unit_test(test_cell_of_rules),
+        cmocka_unit_test(test_keys),        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_every_shape), cmocka_unit_test(test_every_contact),
+        cmocka_unit_test(test_old_keys),    cmocka_unit_test(test_tree),
+        cmocka_unit_test(test_refused),     cmocka_unit_test(test_every_probe),
+        cmocka_unit_test(test_probe_forms), cmocka_unit_test(test_gouging_as_text),
+        cmocka_unit_test(test_run),         cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_report),      cmocka_unit_test(test_example),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

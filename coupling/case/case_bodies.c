@@ -492,15 +492,24 @@ static void read_refine(case_reader *r, const tree_node *map, int k)
         rule->body = named_body(r, map, kind->name, path);
     else if (kind->of_body)
         case_errors_add(r->errors, host_tree_find(map, kind->name), "%s.%s must name a body", path, kind->name);
-    for (int q = 0; q < 3 && rule->cell > 0.0; q++) s->axis[q].fine = fmin(s->axis[q].fine, rule->cell); /* NAN: none */
 }
 
-/* What is said once for all axes. */
+/* The smallest cells that any rule of refinement asks for; NAN: none says. */
+static double cell_of_rules(const mpm_scene *s)
+{
+    double least = NAN;
+    for (int i = 0; i < s->refines; i++)
+        if (s->refine[i].cell > 0.0) least = fmin(least, s->refine[i].cell);
+    return least;
+}
+
+/* What is said once for all axes; an axis's own value goes first, a rule's cells come last. */
 static void share(const shared_keys *keys, mpm_scene *s)
 {
+    const double cell = isnan(keys->cell) ? cell_of_rules(s) : keys->cell;
     for (int k = 0; k < 3; k++) {
         mpm_axis *a = &s->axis[k];
-        if (isnan(a->fine)) a->fine = keys->cell;
+        if (isnan(a->fine)) a->fine = cell;
         if (isnan(a->coarse)) a->coarse = keys->coarse_cell;
         if (isnan(a->growth)) a->growth = keys->growth;
     }
