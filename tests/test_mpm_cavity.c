@@ -432,6 +432,12 @@ static void test_refused(void **state)
     s.levels = 1;
     add_cavity(&s, "again", 0.1e-3, 0.1e-3);
     refused(&s, "cavity `again` is part of `gas`");
+    s.axis[1] = scene_axis(0, 64e-3, 40e-6, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY); /* 1600 cells */
+    s.axis[0] = s.axis[2] = s.axis[1];
+    s.body[0].solid =
+        scene_solid(&s, "minus", NULL, 0, scene_solid(&s, "sphere", (double[]){ 0, 0, 0, 5e-4 }, 4, -1, -1),
+                    scene_solid(&s, "sphere", (double[]){ 0, 0, 0, 3e-4 }, 4, -1, -1));
+    refused(&s, "has at most 2147483647");
     mpm_scene_free(&s);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/memory/cavities.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -274,7 +275,10 @@ static status allocate(mpm *m)
     struct mpm_cavities *c = m->cavities = calloc(1, sizeof *c);
     CHECK(c, STATUS_MEMORY, "no memory for cavities");
     c->n = m->scene.cavities;
-    for (int k = 0; k < 3; k++) c->size[k] = axes(m)[k].last + 2;
+    double all = 1;
+    for (int k = 0; k < 3; k++) all *= c->size[k] = axes(m)[k].last + 2;
+    CHECK(all <= INT_MAX, STATUS_BAD_INPUT,
+          "%.3g cells: a scene with cavities has at most %d, so give it larger ones or a smaller window", all, INT_MAX);
     const size_t cells = (size_t)cells_of(c), n = (size_t)c->n;
     c->state = calloc(n, sizeof *c->state), c->gas = calloc(n, sizeof *c->gas);
     c->map = calloc(cells, 1), c->cover = calloc(cells, 1);
