@@ -32,8 +32,9 @@ static status check_held(const mpm_body *b)
     bool moved = false;
     for (int k = 0; k < 3; k++)
         moved = moved || b->velocity[k] != 0 || b->spin[k] != 0 || b->body_force[k] != 0 || b->traction[k] != 0;
+    moved = moved || mpm_wave_is_wanted(b);
     CHECK(!b->held || !moved, STATUS_BAD_INPUT,
-          "body `%s` is held: it can have no velocity, spin, body_force or traction", b->name);
+          "body `%s` is held: it can have no velocity, spin, body_force, traction, wave_pressure or piston", b->name);
     return status_ok();
 }
 
@@ -154,6 +155,9 @@ static status make_laws(mpm *m)
         m->materials[i] = *s->body[i].material;
         s->body[i].material = &m->materials[i];
         TRY(mpm_law_make(&s->body[i], s, &m->laws[i]));
+        CHECK(!s->body[i].held || m->laws[i].p_start == 0, STATUS_BAD_INPUT,
+              "body `%s` is held: it can have no pressure at the start, and has %g Pa", s->body[i].name,
+              m->laws[i].p_start);
         TRY(mpm_wave_make(&s->body[i], &m->laws[i], &m->waves[i]));
         const mpm_material *k = &m->materials[i];
         m->effusivity[i] = sqrt(k->conductivity * k->density * k->specific_heat);

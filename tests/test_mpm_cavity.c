@@ -400,6 +400,34 @@ static void test_burst_and_joined(void **state)
     mpm_scene_free(&s);
 }
 
+/* Gas between a held wall, which an end of the window would drive, and a plug: the wall stays, and what holds it is
+ * booked. */
+static void test_held(void **state)
+{
+    (void)state;
+    const double h = 0.5e-3;
+    const mpm_material m = scene_elastic();
+    mpm_scene s = { 0 };
+    scene_bar(&s, 0, 12e-3, h, 2);
+    s.axis[0].boundary[0] = MPM_BOUNDARY_PRESCRIBED, s.axis[0].boundary_velocity[0][0] = 5;
+    scene_box(&s, -1, -1, -1, 3e-3, 1, 1, &m)->held = true;
+    mpm_body *plug = scene_box(&s, 6e-3, -1, -1, 9e-3, 1, 1, &m);
+    plug->group = 1, plug->velocity[0] = 1;
+    add_cavity(&s, "gas", 4.5e-3, 1e-9)->pressure = 1e8;
+    mpm *solver = scene_make(&s, 1);
+    const double wall_at = scene_mean(solver, MPM_position, 0, 0);
+    assert_ok(mpm_advance(solver, 5e-6, NULL));
+    const mpm_ledger l = mpm_balance(solver);
+    print_message("held: momentum %.1e, energy %.1e\n", l.momentum_error, l.energy_error);
+    assert_near(scene_mean(solver, MPM_position, 0, 0), wall_at, 1e-15);
+    assert_near(scene_mean(solver, MPM_velocity, 0, 0), 0, 1e-20);
+    assert_true(scene_mean(solver, MPM_velocity, 0, 1) > 2);
+    assert_below(l.momentum_error, 1e-6);
+    assert_near(l.energy_error, 0, 1e-9);
+    mpm_free(solver);
+    mpm_scene_free(&s);
+}
+
 /* ---- what is refused ---- */
 
 static void refused(const mpm_scene *s, const char *words)
@@ -448,7 +476,8 @@ int main(void)
         cmocka_unit_test(test_block),     cmocka_unit_test(test_ring),
         cmocka_unit_test(test_shell),     cmocka_unit_test(test_meet),
         cmocka_unit_test(test_chain),     cmocka_unit_test(test_burst_and_joined),
-        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_held),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -164,6 +164,11 @@ typedef struct {
     int n_walls;
 } node_side;
 
+static bool is_held(const mpm *m, const node_side *s)
+{
+    return m->group[s->brick->group].held;
+}
+
 /* The wall's velocity in component k; what the mixing with it takes is heat, its reaction's work is booked. */
 static void hold(node_state *n, int k, double velocity, double dt, tally *sum)
 {
@@ -247,9 +252,11 @@ static void hold_at(const wall *w, double dt, node_state *n, tally *sum)
         if (w->kind != MPM_BOUNDARY_SYMMETRY || q == w->axis) hold(n, q, velocity[q], dt, sum);
 }
 
+/* A held group stays at rest, whatever the walls say. */
 static void apply_walls(const mpm *m, const node_side *side, int cell, double dt, node_state *n, tally *sum)
 {
-    for (int i = 0; i < side->n_walls; i++) {
+    for (int k = 0; k < 3 && is_held(m, side); k++) hold(n, k, 0, dt, sum);
+    for (int i = 0; i < side->n_walls && !is_held(m, side); i++) {
         const wall *w = &side->walls[i];
         if (w->kind == MPM_BOUNDARY_ABSORBING)
             absorb(n, w, speeds_at(m, side->brick, cell), dt, sum);
@@ -310,11 +317,6 @@ static double effusivity_at(const mpm *m, const node_side *s)
 {
     const group_info *g = &m->group[s->brick->group];
     return g->mixed ? s->state.extra[7] / s->state.m : m->effusivity[g->first];
-}
-
-static bool is_held(const mpm *m, const node_side *s)
-{
-    return m->group[s->brick->group].held;
 }
 
 /* Share of the contact heat that goes to a: by effusivity sqrt(k rho c) where both are known, else half; a held body,
@@ -478,7 +480,7 @@ static void one_node(mpm *m, const scratch *at, int count, int cell, const int i
         }
     for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum);
     for (int s = 0; s < here; s++) {
-        for (int i = 0; count > 1 && i < side[s].n_walls; i++)
+        for (int i = 0; count > 1 && i < side[s].n_walls && !is_held(m, &side[s]); i++)
             if (side[s].walls[i].kind != MPM_BOUNDARY_ABSORBING) hold_at(&side[s].walls[i], dt, &side[s].state, sum);
         if (at->gas) at->swept[at->gas - 1] += volume_made(&side[s].state, dt);
         finish_node(&side[s].state, brick_nodes(m, side[s].brick)[cell], sum);
