@@ -453,7 +453,7 @@ static void add_points(tally *a, const tally *b)
     a->particles += b->particles, a->asleep += b->asleep;
 }
 
-/* What sites book: contact and boundaries. */
+/* What sites book, contact and boundaries, but for the impulse of a gas. */
 static void add_nodes(tally *a, const tally *b)
 {
     a->heat_friction += b->heat_friction, a->work_boundary += b->work_boundary;
@@ -492,6 +492,7 @@ static void collect_share(const mpm *m, int share, tally *sum)
     for (int i = share_begin(sites, share); i < share_begin(sites, share + 1); i++) {
         const tally *t = &m->site_sum[m->site_list[i]];
         add_nodes(sum, t);
+        add_vector(sum->impulse_external, t->impulse_external);
         if (t->shared) add_contact(m, m->site_list[i], contact);
     }
 }

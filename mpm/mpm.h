@@ -26,7 +26,7 @@ typedef struct {
     double
         work_ahead; /* held by `internal`, but still to be taken from `kinetic`: the stress work of half a step [J] */
     double heat_friction, heat_transfer, heat_viscous; /* booked so far; all three are part of `internal` [J] */
-    double work_boundary, work_external; /* done on the model so far: boundaries; tractions and body forces [J] */
+    double work_boundary, work_external; /* done on the model so far: boundaries; tractions, body forces and gas [J] */
     double impulse_boundary[3], impulse_external[3];          /* [N s] */
     double ejected_mass, ejected_momentum[3], ejected_energy; /* left the window or was eroded so far [kg, kg m/s, J] */
     double energy_start, momentum_start[3], kinetic_start, mass_start; /* [J, kg m/s, J, kg] */

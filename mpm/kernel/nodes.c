@@ -411,7 +411,10 @@ static void begin_side(const mpm *m, const group_nodes *group, int cell, const i
     *n = (node_state){ .m = line[0], .extra = group->extra[cell] };
     for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
     n->heat = line[7] - kinetic(n);
-    for (int k = 0; k < 3 && gas != 0; k++) n->f[k] -= gas * n->extra[k];
+    for (int k = 0; k < 3 && gas != 0; k++) {
+        n->f[k] -= gas * n->extra[k];
+        sum->impulse_external[k] -= dt * gas * n->extra[k];
+    }
     side->n_walls = walls_at(m, axes_of(m, side->brick), index, side->brick->group, side->walls);
     apply_walls(m, side, cell, dt, n, sum);
     memcpy(n->v_start, n->v, sizeof n->v_start);
