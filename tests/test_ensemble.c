@@ -155,6 +155,33 @@ static void test_bodies(void **state)
     cJSON_Delete(s);
 }
 
+/* In plane strain the grid stays along y, on one level and on several. */
+static void test_thin(void **state)
+{
+    (void)state;
+    static const char *const cells[] = { "--set 'scene.window={y: {lo: 2 mm, hi: 2.25 mm}}'",
+                                         "--set scene.levels=2 --set 'scene.window={y: {lo: 2 mm, hi: 3 mm}}'" };
+    fresh_folder("thin");
+    OK(host_file_write("thin/case.yaml", body_scene_text, strlen(body_scene_text)));
+    for (int i = 0; i < 2; i++) {
+        char command[1000];
+        snprintf(command, sizeof command,
+                 "scene thin -o thins --force --quiet --no-store --ensemble 2 --set output.snapshots=0 --set "
+                 "'scene.cell=0.25 mm' --set 'scene.end_time=0.2 us' --set 'scene.probes=[]' --set "
+                 "'scene.boundary={y: [symmetry, symmetry]}' %s",
+                 cells[i]);
+        if (run(command) != 0) {
+            char *said = NULL;
+            OK(host_file_read("err.txt", &said, NULL));
+            fail_msg("%s", said);
+        }
+        cJSON *s = summary_of("thins");
+        const cJSON *shift = member(cJSON_GetArrayItem(member(s, "scenes"), 1), "grid_shift");
+        for (int k = 0; k < 3; k++) assert_true((cJSON_GetArrayItem(shift, k)->valuedouble == 0.0) == (k == 1));
+        cJSON_Delete(s);
+    }
+}
+
 /* Stopped as often as it takes and resumed: the same numbers as those of test_table. */
 static void test_stop_and_resume(void **state)
 {
@@ -199,8 +226,9 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shifts), cmocka_unit_test(test_spread),          cmocka_unit_test(test_table),
-        cmocka_unit_test(test_bodies), cmocka_unit_test(test_stop_and_resume), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_shifts),  cmocka_unit_test(test_spread), cmocka_unit_test(test_table),
+        cmocka_unit_test(test_bodies),  cmocka_unit_test(test_thin),   cmocka_unit_test(test_stop_and_resume),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

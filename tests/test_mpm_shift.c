@@ -91,6 +91,19 @@ static void test_none(void **state)
     }
 }
 
+/* By whole cells more the planes lie where they did, in a window that has no room for them too. */
+static void test_whole_cells(void **state)
+{
+    (void)state;
+    const mpm_axis spec = scene_axis(0, 5e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    axis a, b;
+    assert_ok(mpm_axis_make_shifted(&spec, 0.5, 'x', &a));
+    assert_ok(mpm_axis_make_shifted(&spec, 6.5, 'x', &b));
+    assert_int_equal(a.last, b.last);
+    assert_memory_equal(a.node, b.node, (size_t)(4 * a.bricks) * sizeof *a.node);
+    mpm_axis_free(&a), mpm_axis_free(&b);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -224,8 +237,9 @@ static void test_gouge(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_planes),     cmocka_unit_test(test_none),   cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_at_mirrors), cmocka_unit_test(test_flight), cmocka_unit_test(test_gouge),
+        cmocka_unit_test(test_planes),  cmocka_unit_test(test_none),       cmocka_unit_test(test_whole_cells),
+        cmocka_unit_test(test_refused), cmocka_unit_test(test_at_mirrors), cmocka_unit_test(test_flight),
+        cmocka_unit_test(test_gouge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "coupling/scene/scene_window.h"
 
 #include "coupling/scene/probe_place.h"
+#include "mpm/grid/grid.h"
 
 static const double ROUND = 1e-6;         /* of a cell: what lengths may be off by */
 static const double MOST_CELLS = 20000.0; /* along an axis, as mpm/grid/axis.c has it */
@@ -89,4 +90,10 @@ status scene_window_check(const mpm_scene *s)
     for (int k = 0; k < 3; k++) TRY(check_levels(s, k));
     for (int i = 0; i < s->probes; i++) TRY(scene_probe_place_check(s, i));
     return status_ok();
+}
+
+void scene_window_limit_shift(mpm_scene *s, const double own[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (!mpm_grids_hold_shift(s, k)) s->grid_shift[k] = own[k];
 }

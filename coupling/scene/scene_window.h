@@ -10,4 +10,7 @@
  * zone beside the window, levels that do not fit, a body or a probe beside the window.  s: filled (scene_fill). */
 status scene_window_check(const mpm_scene *s);
 
+/* Along an axis of too few cells for its shift, as in plane strain, the grid of a filled scene has its own one. */
+void scene_window_limit_shift(mpm_scene *s, const double own[3]);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
+#include "coupling/scene/scene_window.h"
 #include "coupling/study/scene_doubts.h"
 
 #include <stdlib.h>
@@ -102,6 +103,7 @@ static void fill_cases(const study_case *of, ensemble_answer *a)
         a->in[i] = own;
         a->in[i].onset.study.ensemble = 0;
         study_shift_of(i, shift_of(&own), shift_of(&a->in[i]));
+        if (own.given.bodies) scene_window_limit_shift(&a->in[i].bodies.scene, own.bodies.scene.grid_shift);
         memcpy(a->scene[i].shift, shift_of(&a->in[i]), sizeof a->scene[i].shift);
         snprintf(a->prefix[i], sizeof a->prefix[i], "e%d-", i + 1);
     }

@@ -140,6 +140,7 @@ status mpm_axis_make(const mpm_axis *spec, char letter, axis *out)
 status mpm_axis_make_shifted(const mpm_axis *spec, double shift, char letter, axis *out)
 {
     TRY(mpm_axis_make(spec, letter, out)); /* the errors of the case's own zone come first */
+    shift -= floor(shift);                 /* whole cells move no plane */
     if (!(shift > 0)) return status_ok();
     mpm_axis_free(out);
     mpm_axis moved = *spec;

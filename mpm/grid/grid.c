@@ -57,6 +57,14 @@ static status make_axes(const mpm_scene *s, int k, grids *g)
     return status_ok();
 }
 
+bool mpm_grids_hold_shift(const mpm_scene *s, int k)
+{
+    grids g = { .levels = s->levels };
+    const bool holds = make_axes(s, k, &g).code == STATUS_OK;
+    for (int i = 0; i < g.levels; i++) mpm_axis_free(&g.level[i].axes[k]);
+    return holds;
+}
+
 /* ---- granules ---- */
 
 static status make_tables(grids *g)

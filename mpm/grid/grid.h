@@ -56,6 +56,9 @@ typedef struct {
 status mpm_grids_make(const mpm_scene *s, grids *out);
 void mpm_grids_free(grids *g);
 
+/* Is the window of a scene whose levels are filled long enough along axis k for the shift of its grid? */
+bool mpm_grids_hold_shift(const mpm_scene *s, int k);
+
 /* Makes every level active that those finer than it need around them. */
 status mpm_grids_nest(grids *g);
 
