@@ -27,7 +27,8 @@ typedef struct {
 struct history {
     char path[OUTDIR_PATH_SIZE];
     h5_file *file;
-    series_buffer series[HISTORY_MAX_SERIES];
+    int n_series;
+    series_buffer *series;         /* [n_series] owned */
     double flushed, flush_seconds; /* wall clock of the last flush, what it took [s] */
     bool changed;
 };
@@ -104,7 +105,7 @@ static status gather(history *h, series_buffer *b)
 
 static status gather_all(history *h)
 {
-    for (int i = 0; i < HISTORY_MAX_SERIES; i++)
+    for (int i = 0; i < h->n_series; i++)
         if (h->series[i].rows > 0) TRY(gather(h, &h->series[i]));
     return status_ok();
 }
@@ -112,8 +113,20 @@ static status gather_all(history *h)
 static int find_series(const history *h, const char *group)
 {
     int i = 0;
-    while (i < HISTORY_MAX_SERIES && strcmp(h->series[i].group, group) != 0) i++;
+    while (i < h->n_series && strcmp(h->series[i].group, group) != 0) i++;
     return i;
+}
+
+/* A place for one more. */
+static status free_series(history *h, int *series)
+{
+    *series = find_series(h, "");
+    if (*series < h->n_series) return status_ok();
+    series_buffer *grown = realloc(h->series, ((size_t)h->n_series + 1) * sizeof *grown);
+    CHECK(grown, STATUS_MEMORY, "no memory for %d series of the history", h->n_series + 1);
+    h->series = grown;
+    memset(&h->series[h->n_series++], 0, sizeof *grown);
+    return status_ok();
 }
 
 status output_history_series(history *h, const char *group, const history_column *columns, int n, int *series)
@@ -124,13 +137,11 @@ status output_history_series(history *h, const char *group, const history_column
 status output_history_arrays(history *h, const char *group, const history_column *columns, const int *width, int n,
                              int *series)
 {
-    CHECK(n > 0 && n <= HISTORY_MAX_COLUMNS, STATUS_BAD_INPUT, "history %.100s: %d columns, 1 to %d", group, n,
-          HISTORY_MAX_COLUMNS);
+    CHECK(n > 0, STATUS_BAD_INPUT, "history %.100s: %d columns", group, n);
     CHECK(group[0] == '/' && strlen(group) < GROUP_SIZE, STATUS_BAD_INPUT, "history: %.100s is no group's name", group);
     *series = find_series(h, group);
-    if (*series < HISTORY_MAX_SERIES) return status_ok();
-    *series = find_series(h, "");
-    CHECK(*series < HISTORY_MAX_SERIES, STATUS_BAD_INPUT, "history: more than %d series open", HISTORY_MAX_SERIES);
+    if (*series < h->n_series) return status_ok();
+    TRY(free_series(h, series));
     series_buffer *b = &h->series[*series];
     if (!series_allocate(b, width, n)) {
         series_free(b);
@@ -203,7 +214,8 @@ status output_history_close(history *h)
 {
     if (!h) return status_ok();
     const status s = output_history_flush(h);
-    for (int i = 0; i < HISTORY_MAX_SERIES; i++) series_free(&h->series[i]);
+    for (int i = 0; i < h->n_series; i++) series_free(&h->series[i]);
+    free(h->series);
     host_h5_close(h->file);
     free(h);
     return s;
@@ -429,6 +441,8 @@ status output_history_scene(history *h, const char *scene, const history_column 
     char group[GROUP_SIZE];
     TRY(scene_group(scene, group));
     const size_t own = WIDTH(scene_columns);
+    CHECK((int)own + n <= HISTORY_MAX_COLUMNS, STATUS_BAD_INPUT, "history of %.100s: %d columns, at most %d", scene,
+          (int)own + n, HISTORY_MAX_COLUMNS);
     history_column *all = calloc(own + (size_t)n, sizeof *all);
     CHECK(all, STATUS_MEMORY, "no memory for %zu columns of a scene's history", own + (size_t)n);
     memcpy(all, scene_columns, sizeof scene_columns);

@@ -31,7 +31,7 @@ typedef struct {
 status output_history_open(const char *path, bool resume, history **out);
 
 /* A group of columns ("/shot", "/scene/a"); appended to when it is there.  columns: n, copied.  The first column is the
- * time.  At most HISTORY_MAX_SERIES are open at once; opening the same group again gives the same series. */
+ * time.  Opening the same group again gives the same series. */
 status output_history_series(history *h, const char *group, const history_column *columns, int n, int *series);
 /* The same of arrays: column c has width[c] values in every row, a dataset of two dimensions; the time has one. */
 status output_history_arrays(history *h, const char *group, const history_column *columns, const int *width, int n,
@@ -86,7 +86,7 @@ status output_history_map(history *h, const char *scene, const history_map *map)
 
 /* ---- the rows of Breech's own series ---- */
 
-enum { HISTORY_MAX_COLUMNS = 4096, HISTORY_MAX_SERIES = 512 };
+enum { HISTORY_MAX_COLUMNS = 4096 }; /* of /shot/modules and /scene/<name> */
 
 status output_history_shot(history *h, int *series); /* /shot */
 void output_history_shot_row(const circuit_shot_state *s, double *row);
