@@ -326,6 +326,34 @@ static void check_surroundings(const mpm_material *m)
     assert_near(thin.p_start, 0.1 * A, 0);
 }
 
+/* Beyond the range of the equation of state, and where a fluid cavitates, nothing can start. */
+static void test_start(void **state)
+{
+    (void)state;
+    const mpm_material copper = scene_copper(), water = scene_water();
+    const struct {
+        const mpm_material *m;
+        double T, p;
+        const char *says; /* NULL: it starts */
+    } of[] = { { &copper, 293, 2e11, NULL },
+               { &copper, 293, 3e11, "e+11 Pa, not 3e+11 Pa" },
+               { &copper, 293, -6e10, "not -6e+10 Pa" },
+               { &copper, 6e4, NAN, "body `it`: at 60000 K its equation of state has pressures of" },
+               { &water, 293, 1e9, NULL },
+               { &water, 293, -1e5, "cavitates at 0 Pa" } };
+    mpm_scene s;
+    mpm_scene_default(&s);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        const mpm_body b = {
+            .name = "it", .material = of[i].m, .temperature = of[i].T, .pressure = of[i].p, .yield_scale = 1
+        };
+        law k;
+        const status is = mpm_law_make(&b, &s, &k);
+        if ((is.code == STATUS_OK) != !of[i].says || (of[i].says && !strstr(is.text, of[i].says)))
+            fail_msg("%g K, %g Pa: `%s`", of[i].T, of[i].p, is.text);
+    }
+}
+
 static void test_surroundings(void **state)
 {
     const char *const names[] = {
@@ -372,7 +400,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_strength), cmocka_unit_test(test_own_strength), cmocka_unit_test(test_eos),
-        cmocka_unit_test(test_warm),     cmocka_unit_test(test_surroundings), cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_warm),     cmocka_unit_test(test_surroundings), cmocka_unit_test(test_start),
+        cmocka_unit_test(test_failure),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);
 }
