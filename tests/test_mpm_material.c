@@ -232,6 +232,17 @@ static void test_ptw(void **state)
     assert_near(ptw_stress(&slow, 1, 0.3, 1e6, 293) / 5.859397212e+08, 1, 1e-6);
     assert_near(ptw_stress(&slow, 1, 0, 1, 293) / 1.379989210e+07, 1, 1e-6);
 
+    mpm_material steep = m; /* (s - y)/(s0 - y) so large that 1 - 1/D rounds to one: it begins at y */
+    steep.ptw_p = 20, steep.ptw_y1 = 0.005;
+    for (double rate = 1; rate < 1e11; rate *= 1.02) {
+        mpm_material fast = steep;
+        fast.rate_0 = 1e6, fast.ptw_gamma = fmin(fmax(m.ptw_gamma * 1e6 / rate, 1e-9), 1); /* as fast at rate_0 */
+        const double flow = ptw_stress(&steep, 1, 0, rate, 293),
+                     start = specimen_make(fast, 293, 0, 0, false).k.flow_start;
+        if (!(flow > 0 && flow < 1e11 && start > 0 && start < 1e11))
+            fail_msg("rate %g 1/s: flow stress %g Pa, at the start %g Pa", rate, flow, start);
+    }
+
     mpm_material flat = m; /* p -> 0: tau = s - (s - y) exp(-theta e/(s - y)), to the 1e-4 that stand for zero */
     flat.ptw_p = 0;
     const double s = ptw_stress(&flat, 1, 100, 1, 293), y = ptw_stress(&flat, 1, 0, 1, 293), G2 = y / 1e-4;

@@ -46,7 +46,8 @@ static double strength_ptw_flow_at(const strength_ptw *k, double e, double log_r
     const double room = (k->s0 - y) * k->inv_p;
     if (!(room > 1e-6 * k->s0) || !(s - y > 1e-6 * s)) return k->G2 * soft * s;
     const double D = exp(fmin((s - y) / room, 50));
-    return k->G2 * soft * (s + room * log(1 - (1 - 1 / D) * exp(-k->theta * (e + k->cold_work) / (room * (D - 1)))));
+    const double left = 1 - (1 - 1 / D) * exp(-k->theta * (e + k->cold_work) / (room * (D - 1)));
+    return k->G2 * soft * (s + room * log(left > 0 ? left : 1 / D)); /* 0: rounding has lost 1/D */
 }
 
 /* Minimum of sigma_y/(1 - T*) over temperature, at the strain and the strain rate with the lowest flow stress. */
@@ -109,8 +110,9 @@ LAW_CALL vd strength_ptw_flow(const strength_ptw *k, const flow_state *p)
     const vd room = (k->s0 - y) * k->inv_p;
     const vm hardens = vd_less(vd_set(1e-6 * k->s0), room) & vd_less(1e-6 * s, s - y);
     const vd r = vd_select(hardens, room, one), D = vd_exp(vd_select(hardens, vd_min((s - y) / r, vd_set(50)), one));
-    const vd left = (1 - 1 / D) * vd_exp(-k->theta * (p->strain + k->cold_work) / (r * (D - 1)));
-    const vd stress = k->G2 * soft * (s + vd_where(hardens, r * vd_log(1 - left)));
+    const vd left = 1 - (1 - 1 / D) * vd_exp(-k->theta * (p->strain + k->cold_work) / (r * (D - 1)));
+    const vd known = vd_select(vd_less(vd_set(0), left), left, 1 / D); /* 0: rounding has lost 1/D */
+    const vd stress = k->G2 * soft * (s + vd_where(hardens, r * vd_log(known)));
     return vd_where(vd_less(p->T_star, one), stress);
 }
 #endif
