@@ -377,12 +377,19 @@ static void add_probe(char *text, size_t size, const mpm_probe_kind *k)
     snprintf(text + at, size - at, "}}\n");
 }
 
+/* The scene has no cavity that a probe could read. */
+static bool fits(const mpm_probe_kind *k)
+{
+    return strcmp(k->name, "cavity") != 0;
+}
+
 #define EVERY_PROBE_SIZE 6000
 static void every_probe(char text[EVERY_PROBE_SIZE])
 {
     snprintf(text, EVERY_PROBE_SIZE, "%s",
              TWO "  cell: 0.4 mm\n  contacts: [{default: coulomb, friction: 0.1}]\n  probes:\n");
-    for (int i = 0; mpm_probe_kind_at(i); i++) add_probe(text, EVERY_PROBE_SIZE, mpm_probe_kind_at(i));
+    for (int i = 0; mpm_probe_kind_at(i); i++) /* the scene has no cavity */
+        if (strcmp(mpm_probe_kind_at(i)->name, "cavity") != 0) add_probe(text, EVERY_PROBE_SIZE, mpm_probe_kind_at(i));
 }
 
 /* Every kind is read with what its own table asks for, and printed so that the same comes back. */
@@ -398,9 +405,11 @@ static void test_every_probe(void **state)
     char *again = used_text(back);
     assert_string_equal(used, again);
     int n = 0;
-    for (; mpm_probe_kind_at(n); n++) {
+    for (int i = 0; mpm_probe_kind_at(i); i++) {
+        const mpm_probe_kind *k = mpm_probe_kind_at(i);
+        if (!fits(k)) continue;
         const mpm_probe *a = &c->bodies.scene.probe[n], *b = &back->bodies.scene.probe[n];
-        const mpm_probe_kind *k = mpm_probe_kind_at(n);
+        n++;
         assert_true(a->kind == k && b->kind == k && a->body == 0 && b->body == 0);
         assert_string_equal(a->name, b->name);
         assert_memory_equal(a->value, b->value, sizeof a->value);

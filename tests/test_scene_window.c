@@ -117,6 +117,10 @@ static void test_probes(void **state)
                       "8:32", "scene.probes[1].pressure.at: g lies at x = ");
     assert_refused_at("  cell: 1 mm\n  probes: [{name: f, face: {lo: 0 90 0 mm, hi: 1 91 1 mm}}]\n", "6:33",
                       "scene.probes[0].face.lo: f lies at y = ");
+    assert_refused_at("  cell: 1 mm\n  probes: [{name: g, cavity: {number: 0}}]\n", "6:39",
+                      "scene.probes[0].cavity.number = 0: the scene has 0 cavities");
+    assert_refused_at("  cell: 1 mm\n  probes: [{name: g, cavity: {number: 1.7}}]\n", "6:30",
+                      "scene.probes[0].cavity.number = 1.7: a cavity has a whole number");
     assert_warned("  cell: 1 mm\n  probes: [{name: g, pressure: {at: -3 3.5 0 mm}}]\n",
                   "warning: probe g: nothing is where it reads at the start", true);
     assert_warned("  cell: 1 mm\n  probes: [{name: g, pressure: {at: -3 0 0 mm, body: plate}}]\n",

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { LOOKS = 24 }; /* along each axis of the box that a probe and a body share */
 
@@ -25,10 +26,22 @@ static place place_of(const mpm_scene *s, int probe)
     return is;
 }
 
+/* Of a probe that reads a cavity: is there one of that number? */
+static status check_cavity(const mpm_scene *s, int probe)
+{
+    mpm_probe p = s->probe[probe];
+    const double *number = strcmp(p.kind->name, "cavity") == 0 ? mpm_probe_value(&p, "number") : NULL;
+    CHECK(!number || *number < s->cavities, STATUS_BAD_INPUT,
+          "scene.probes[%d].cavity.number = %g: the scene has %d cavities, the first of which is 0", probe, *number,
+          s->cavities);
+    return status_ok();
+}
+
 status scene_probe_place_check(const mpm_scene *s, int probe)
 {
     const mpm_probe *p = &s->probe[probe];
     const place is = place_of(s, probe);
+    TRY(check_cavity(s, probe));
     for (int k = 0; is.lower && k < 3; k++) {
         const mpm_axis *a = &s->axis[k];
         const bool below = is.hi[k]<a->lo, above = is.lo[k]> a->hi;

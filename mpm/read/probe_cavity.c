@@ -24,6 +24,13 @@ static const mpm_column columns[COLUMNS + 1] = {
     { NULL, NULL, NULL },
 };
 
+static status check(const mpm_probe *p, const char *name)
+{
+    const double number = PROBE_VALUES(values, p)->number;
+    CHECK(number == floor(number), STATUS_BAD_INPUT, "%s.number = %g: a cavity has a whole number", name, number);
+    return status_ok();
+}
+
 static status read(const mpm *m, const mpm_probe *p, double *out)
 {
     const int k = (int)PROBE_VALUES(values, p)->number;
@@ -40,4 +47,5 @@ const mpm_probe_kind mpm_probe_cavity = { .name = "cavity",
                                           .params = params,
                                           .columns = columns,
                                           .mains = 1,
+                                          .check = check,
                                           .read = read };
