@@ -158,6 +158,7 @@ typedef struct {
     double work;  /* point-steps in a step of the finest level: coarser levels make fewer [1] */
     size_t bytes; /* MPM_BYTES and MPM_BYTES_A_PARTICLE each */
     double dt;    /* first step of the finest level [s] */
+    int empty;    /* the first body that has no point, -1: none */
 } mpm_needs;
 
 /* Blocks five eighths full, a quarter in reserve, sums of their bricks;

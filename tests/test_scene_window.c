@@ -109,6 +109,33 @@ static void test_few_cells(void **state)
 #undef FILM
 }
 
+/* Cut away whole, claimed whole by a later body, of parts that lie apart: refused by its name. */
+static void test_empty(void **state)
+{
+    (void)state;
+#define BOX(lo, hi) "{box: {lo: " #lo " " #lo " " #lo " mm, hi: " #hi " " #hi " " #hi " mm}}"
+    static const char *const shapes[][2] = {
+        { "{minus: [" BOX(0, 3) ", " BOX(-1, 4) "]}", "scene.bodies[0].shape: nothing of none is left" },
+        { BOX(6, 7), "scene.bodies[0].shape: nothing of none is left" },
+        { "{intersect: [" BOX(0, 1) ", " BOX(2, 3) "]}", "scene.bodies[0].shape: none is empty" },
+    };
+    for (int i = 0; i < 3; i++) {
+        fresh_folder("w");
+        FILE *f = fopen("w/case.yaml", "w");
+        assert_non_null(f);
+        fprintf(f,
+                "%s  cell: 0.5 mm\n  overlap: later\n  bodies:\n"
+                "    - {name: none, material: ofhc_copper, shape: %s}\n"
+                "    - {name: rest, material: ofhc_copper, shape: " BOX(5, 9) "}\n",
+                head, shapes[i][0]);
+        fclose(f);
+        assert_int_equal(run("check w"), 2);
+        if (!contains("err.txt", shapes[i][1])) fail_msg("not said: %s", shapes[i][1]);
+        assert_int_equal(run("scene w -o w/out --quiet --no-store"), 2);
+    }
+#undef BOX
+}
+
 static void test_probes(void **state)
 {
     (void)state;
@@ -132,10 +159,8 @@ static void test_probes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_windows),
-        cmocka_unit_test(test_cells),
-        cmocka_unit_test(test_few_cells),
-        cmocka_unit_test(test_probes),
+        cmocka_unit_test(test_windows), cmocka_unit_test(test_cells), cmocka_unit_test(test_few_cells),
+        cmocka_unit_test(test_probes),  cmocka_unit_test(test_empty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,16 @@ static double volume(const box *b)
     return (b->hi[0] - b->lo[0]) * (b->hi[1] - b->lo[1]) * (b->hi[2] - b->lo[2]);
 }
 
+/* Parts without anything in common have no box. */
+static status check_box(const mpm_scene *s, int body)
+{
+    const box b = box_of(s, body);
+    for (int k = 0; k < 3; k++)
+        CHECK(b.hi[k] > b.lo[k], STATUS_BAD_INPUT, "scene.bodies[%d].shape: %s is empty, by its extent along %s", body,
+              s->body[body].name, mpm_axis_names[k]);
+    return status_ok();
+}
+
 /* What the bodies say of the window. */
 typedef struct {
     box all, smallest;
@@ -111,6 +121,7 @@ status scene_fill(mpm_scene *s)
 status scene_fill_with(mpm_scene *s, const scene_room *also)
 {
     CHECK(s->bodies > 0, STATUS_BAD_INPUT, "scene.bodies: there are none");
+    for (int i = 0; i < s->bodies; i++) TRY(check_box(s, i));
     const survey bodies = look(s);
     for (int k = 0; k < 3; k++) fill_cells(&bodies, s->refines > 0, &s->axis[k]);
     mpm_scene_levels_fill(s);

@@ -146,7 +146,12 @@ status study_prepare(case_inputs *in)
 status study_possible(const case_inputs *in, unsigned needs, size_t *largest)
 {
     mpm_needs bodies;
-    if (in->given.bodies) TRY(needs_of(&in->bodies.scene, &bodies, largest));
+    if (in->given.bodies) {
+        TRY(needs_of(&in->bodies.scene, &bodies, largest));
+        CHECK(bodies.empty < 0, STATUS_BAD_INPUT,
+              "scene.bodies[%d].shape: nothing of %s is left: not one point, of cells as large as these", bodies.empty,
+              in->bodies.scene.body[bodies.empty].name);
+    }
     const case_onset *c = &in->onset;
     circuit_rail_section section;
     if (needs & CASE_FOR_INDUCTANCE) TRY(circuit_rails_section(&c->launcher.rails, &section));

@@ -207,6 +207,7 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
 typedef struct {
     const grids *grids;
     double particles, work;
+    int empty; /* first body without a point, -1: none */
 } counting;
 
 static status count_point(void *user, int body, const build_point *p)
@@ -226,6 +227,11 @@ static status count_body(const mpm_scene *s, int body, const law *k, counting *c
     const build_sink sink = { count_point, &own };
     double share;
     TRY(mpm_build_sample(s, body, k, c->grids, MOST, &sink, &share));
+    if (own.particles == 0 && share < 1) {
+        TRY(mpm_build_body(s, body, k, c->grids, &mpm_build_everywhere, &sink));
+        share = 1;
+    }
+    if (own.particles == 0 && c->empty < 0) c->empty = body;
     c->particles += own.particles / share;
     c->work += own.work / share;
     return status_ok();
@@ -234,7 +240,7 @@ static status count_body(const mpm_scene *s, int body, const law *k, counting *c
 static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
 {
     double fastest = 0;
-    *c = (counting){ .grids = g };
+    *c = (counting){ .grids = g, .empty = -1 };
     for (int i = 0; i < s->bodies; i++) {
         law k;
         TRY(mpm_law_make(&s->body[i], s, &k));
@@ -310,7 +316,7 @@ status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
     if (s.code == STATUS_OK) s = count(&whole, &g, &c, &needs->dt);
     mpm_grids_free(&g);
     TRY(s);
-    needs->particles = (size_t)(c.particles + 0.5), needs->work = c.work;
+    needs->particles = (size_t)(c.particles + 0.5), needs->work = c.work, needs->empty = c.empty;
     needs->bytes = MPM_BYTES + needs->particles * MPM_BYTES_A_PARTICLE + (size_t)scene->bodies * MPM_BYTES_A_BODY;
     return status_ok();
 }
