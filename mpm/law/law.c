@@ -68,9 +68,10 @@ static double pressure_at(const law *k, double mu, double thermal)
 }
 
 /* Energy and density of the body at its temperature and pressure: simple iteration with the slope K0. */
-static status start_at(law *k, const char *name, double temperature, double pressure)
+static status start_at(law *k, const mpm_body *body)
 {
     enum { ITERATIONS = 200 };
+    const double temperature = body->temperature, pressure = isnan(body->pressure) ? k->p_rest : body->pressure;
     const double thermal = k->c_v * (temperature - k->T_r) + (temperature > k->T_m ? k->latent : 0);
     double mu = 0;
     k->e_start = thermal;
@@ -85,11 +86,11 @@ static status start_at(law *k, const char *name, double temperature, double pres
         k->e_start = thermal + reference_at(k, mu);
         *(mpm_law_pressure(k, mu, k->e_start) > pressure ? &hi : &lo) = mu;
     }
-    CHECK(fabs(mpm_law_pressure(k, mu, k->e_start) - pressure) < 1e-6 * k->K0, STATUS_BAD_INPUT,
-          "body `%s`: at %g K its equation of state has pressures of %.4g to %.4g Pa, not %.4g Pa", name, temperature,
-          pressure_at(k, k->mu_least, thermal), pressure_at(k, k->mu_most, thermal), pressure);
+    CHECK(isnan(body->pressure) || fabs(mpm_law_pressure(k, mu, k->e_start) - pressure) < 1e-6 * k->K0,
+          STATUS_BAD_INPUT, "body `%s`: at %g K its equation of state has pressures of %.4g to %.4g Pa, not %.4g Pa",
+          body->name, temperature, pressure_at(k, k->mu_least, thermal), pressure_at(k, k->mu_most, thermal), pressure);
     CHECK(k->strength.kind != MPM_STRENGTH_none || pressure >= k->strength.none.least_pressure, STATUS_BAD_INPUT,
-          "body `%s`: a pressure of %.4g Pa at the start, but its fluid cavitates at %.4g Pa", name, pressure,
+          "body `%s`: a pressure of %.4g Pa at the start, but its fluid cavitates at %.4g Pa", body->name, pressure,
           k->strength.none.least_pressure);
     k->rho_start = k->rho0 * (1 + mu);
     k->p_start = pressure;
@@ -140,7 +141,7 @@ status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     TRY(derive_failure(&k, &m));
     k.least_flow *= 1 - k.softening;
     k.sound = sqrt((k.K0 + 4.0 / 3.0 * mpm_law_shear(&k)) / k.rho0);
-    TRY(start_at(&k, body->name, body->temperature, isnan(body->pressure) ? k.p_rest : body->pressure));
+    TRY(start_at(&k, body));
     *out = k;
     return status_ok();
 }
