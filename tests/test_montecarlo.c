@@ -218,6 +218,33 @@ static void test_band(void **state)
     free(r.family);
 }
 
+/* Grains of one size are all there, or none: a size that is just the smallest counts. */
+static void test_one_size(void **state)
+{
+    (void)state;
+    static const struct {
+        double median, factor;
+        bool all;
+    } of[] = { { 1e-4, 1.0, true },
+               { 1.001e-4, 1.0, true },
+               { 0.999e-4, 1.0, false },
+               { 0.96e-4, 1.05, true },
+               { 1.01e-4, 0.95, false } };
+    const double mean = 10.0 * LENGTH * (1.0 - 1400.0 / MUZZLE);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        rail r;
+        make(&r, 10.0, of[i].median, 0.0, 1400.0, 0.0, 0.0);
+        const mc_surface one = as_new(&r, 0, of[i].factor);
+        mc_result out = run(&one, 1, 20000, 1);
+        const double want = of[i].all ? mean : 0.0;
+        assert_true(fabs(out.of[0].gouges - want) <= four_sigma(want, out.histories));
+        const bool as_they_are = of[i].median >= r.c.study.smallest_radius; /* the quadrature has no factor */
+        assert_true(fabs(study_mc_expected(&r.grains, LENGTH) - (as_they_are ? mean : 0.0)) <= 2e-3 * mean);
+        study_mc_free(&out);
+        free(r.family);
+    }
+}
+
 static void test_table_and_sites(void **state)
 {
     (void)state;
@@ -619,6 +646,7 @@ int main(void)
         cmocka_unit_test(test_many_sizes),
         cmocka_unit_test(test_closed),
         cmocka_unit_test(test_band),
+        cmocka_unit_test(test_one_size),
         cmocka_unit_test(test_beyond),
         cmocka_unit_test(test_common_numbers),
         cmocka_unit_test(test_worlds_are_spread),

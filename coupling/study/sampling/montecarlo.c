@@ -469,6 +469,7 @@ static double first_place(const mc *m, int index)
     return first;
 }
 
+/* Deviate from which on a log-normal grain is large enough for a surface.  Without a spread all grains are, or none. */
 static double smallest_deviate(const mc *m, int index)
 {
     double lowest = INFINITY;
@@ -476,7 +477,8 @@ static double smallest_deviate(const mc *m, int index)
         const lane *l = &m->lane[i];
         const case_population *p = &l->grains->c->populations.item[index];
         const double ln = log(l->grains->c->study.smallest_radius / p->radius_median) - l->ln_factor;
-        lowest = fmin(lowest, ln / fmax(p->radius_spread, 1e-9));
+        const bool all = l->ln_factor + l->strewn[index].ln_median >= l->ln_smallest; /* as strew asks */
+        lowest = fmin(lowest, p->radius_spread > 0.0 ? ln / p->radius_spread : all ? -INFINITY : INFINITY);
     }
     return lowest;
 }
