@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random shots over surfaces that are known: closed answers of a Poisson process. */
 #include "base/constants.h"
-#include "coupling/study/sampling/montecarlo.h"
 #include "coupling/study/sampling/population.h"
 
 #include <math.h>
@@ -14,76 +13,8 @@
 
 #include <cmocka.h>
 
+#include "rail_common.h"
 #include "status_common.h"
-
-/* ---- a rail ---- */
-
-enum { TRACE = 200 };
-static const double LENGTH = 3.0, MUZZLE = 2100.0;
-
-/* v = MUZZLE x / LENGTH; one population, one family: the threshold v_th (r / 0.5 mm)^-slope in a band +- half. */
-typedef struct {
-    case_onset c;
-    case_population population;
-    case_site site[3];
-    trace_point trace[TRACE];
-    shot_outcome flown;
-    grain_family *family;
-    int of_population[1], of_site[3];
-    grain_families grains;
-    scene_record record[2];
-} rail;
-
-static void make(rail *r, double density, double median, double spread, double threshold, double slope, double half)
-{
-    memset(r, 0, sizeof *r);
-    r->population = (case_population){ .density = density,
-                                       .radius_median = median,
-                                       .radius_spread = spread,
-                                       .aspect = 1.0,
-                                       .from = 0.0,
-                                       .to = LENGTH,
-                                       .renewed = true };
-    r->c.populations = (case_populations){ 1, &r->population };
-    r->c.study.smallest_radius = 1e-4;
-    for (int i = 0; i < TRACE; i++) {
-        const double f = (double)i / (TRACE - 1);
-        r->trace[i] = (trace_point){ .t = f, .x = LENGTH * f, .v = MUZZLE * f };
-    }
-    r->flown.trace = r->trace;
-    r->flown.n_trace = TRACE;
-    r->family = calloc(1, sizeof *r->family);
-    r->family->aspect = 1.0;
-    surface_result *s = &r->family->surface;
-    s->sizes = 9;
-    s->reference.shift = NAN;
-    s->reference.cells = 3.0;
-    for (int k = 0; k < 9; k++) {
-        const double radius = 1e-4 * pow(10.0, 0.15 * k), v = threshold * pow(radius / 0.5e-3, -slope);
-        s->size[k] = (surface_size){ .radius = radius, .velocity = v, .interval = { v - half, v + half } };
-    }
-    for (int k = 0; k < 2; k++) { /* crater 10 r^3 at 1000 m/s, 30 r^3 at 2000 */
-        scene_result *hit = &r->record[k].entry.result;
-        hit->class = hit->crater_class = DAMAGE_GOUGE;
-        hit->crater_volume = (10.0 + 20.0 * k) * 0.125e-9;
-        hit->rim_height = 0.25e-3;
-        hit->crater_length = 4e-3;
-        r->family->scene[k] = (family_scene){ 0.5e-3, 1000.0 + 1000.0 * k, 3.0, true, &r->record[k] };
-    }
-    r->family->n_scenes = 2;
-    r->grains = (grain_families){ .c = &r->c,
-                                  .flown = &r->flown,
-                                  .prefix = "",
-                                  .n = 1,
-                                  .family = r->family,
-                                  .of_site = r->of_site,
-                                  .of_population = r->of_population };
-}
-
-static mc_surface as_new(const rail *r, int draws, double size_factor)
-{
-    return (mc_surface){ .grains = &r->grains, .draws = draws, .size_factor = size_factor };
-}
 
 static mc_result run(const mc_surface *surface, int n, int histories, int shots)
 {
@@ -155,7 +86,7 @@ static void test_closed(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 2.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    make_rail(&r, 2.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
     const double share = study_population_share_from(&r.population, 1e-4), mean = 2.0 * share;
     const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 100000, 1);
@@ -185,7 +116,7 @@ static void test_band(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.2, 60.0);
+    make_rail(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.2, 60.0);
     const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 200 * MC_WORLDS, 1);
     const double mean = study_mc_expected(&r.grains, LENGTH);
@@ -206,7 +137,7 @@ static void test_band(void **state)
     study_mc_free(&sharp);
     free(r.family);
     /* the cells allow 40 m/s below and 300 above: thresholds of 1500 + (300 - 40)/4 m/s on average */
-    make(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.0, 0.0);
+    make_rail(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.0, 0.0);
     surface_result *of = &r.family->surface;
     of->reference.allowance[0] = 40.0, of->reference.allowance[1] = 300.0;
     for (int k = 0; k < 9; k++) of->size[k].interval[0] -= 40.0, of->size[k].interval[1] += 300.0;
@@ -233,7 +164,7 @@ static void test_one_size(void **state)
     const double mean = 10.0 * LENGTH * (1.0 - 1400.0 / MUZZLE);
     for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
         rail r;
-        make(&r, 10.0, of[i].median, 0.0, 1400.0, 0.0, 0.0);
+        make_rail(&r, 10.0, of[i].median, 0.0, 1400.0, 0.0, 0.0);
         const mc_surface one = as_new(&r, 0, of[i].factor);
         mc_result out = run(&one, 1, 20000, 1);
         const double want = of[i].all ? mean : 0.0;
@@ -249,7 +180,7 @@ static void test_table_and_sites(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 5.0, NAN, NAN, 1400.0, 0.0, 0.0);
+    make_rail(&r, 5.0, NAN, NAN, 1400.0, 0.0, 0.0);
     case_size table[] = { { 5e-5, 3.0 }, { 2e-4, 1.0 }, { 4e-4, 1.0 } };
     r.population.sizes = (case_sizes){ 3, table };
     const double at[3] = { 1.0, 2.1, 2.8 };
@@ -276,7 +207,7 @@ static void test_beyond(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    make_rail(&r, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
     for (int k = 0; k < 9; k++) { /* above what the search looked at, which the shot is only over the last 0.14 m: as
                                    * likely as not */
         r.family->surface.size[k].velocity = r.family->surface.size[k].interval[1] = NAN;
@@ -295,7 +226,7 @@ static void test_beyond(void **state)
     study_mc_free(&out);
     /* gouges without a crater: their number is known, their volume is not */
     free(r.family);
-    make(&r, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    make_rail(&r, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
     r.family->n_scenes = 0;
     out = run(&one, 1, 1000, 2);
     for (int k = 0; k < 2; k++)
@@ -311,8 +242,8 @@ static void test_common_numbers(void **state)
 {
     (void)state;
     rail a, b;
-    make(&a, 5.0, 2e-4, 0.5, 1400.0, 0.1, 0.0);
-    make(&b, 5.0, 2e-4, 0.5, 1430.0, 0.1, 0.0);
+    make_rail(&a, 5.0, 2e-4, 0.5, 1400.0, 0.1, 0.0);
+    make_rail(&b, 5.0, 2e-4, 0.5, 1430.0, 0.1, 0.0);
     const mc_surface three[] = { as_new(&a, 0, 1.0), as_new(&a, 1, 1.0), as_new(&b, 2, 1.0) };
     mc_result out = run(three, 3, 20000, 1);
     assert_true(out.of[0].gouges == out.of[1].gouges && out.of[0].volume == out.of[1].volume);
@@ -337,7 +268,7 @@ static void test_worlds_are_spread(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 0.0, 1.5e-4, 0.7, 1500.0, 0.0, 0.0);
+    make_rail(&r, 0.0, 1.5e-4, 0.7, 1500.0, 0.0, 0.0);
     r.site[0] = (case_site){ .position = LENGTH * 1530.0 / MUZZLE, .radius = 1.5e-4 };
     r.c.sites = (case_sites){ 1, r.site };
     surface_result *of = &r.family->surface;
@@ -356,7 +287,7 @@ static void test_own_error(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.0, 0.0);
+    make_rail(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.0, 0.0);
     surface_result *of = &r.family->surface;
     of->reference.allowance[0] = of->reference.allowance[1] = 100.0;
     for (int k = 0; k < 9; k++) of->size[k].interval[0] -= 100.0, of->size[k].interval[1] += 100.0;
@@ -385,7 +316,7 @@ static void test_seed(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 5.0, 2e-4, 0.5, 1400.0, 0.1, 30.0);
+    make_rail(&r, 5.0, 2e-4, 0.5, 1400.0, 0.1, 30.0);
     const mc_surface one = as_new(&r, 0, 1.0);
     mc_result a = run(&one, 1, 2000, 1), b = run(&one, 1, 2000, 1);
     assert_memory_equal(a.of, b.of, sizeof *a.of);
@@ -411,7 +342,7 @@ static void test_stop(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 1e6, 2e-4, 0.5, 1400.0, 0.1, 30.0);
+    make_rail(&r, 1e6, 2e-4, 0.5, 1400.0, 0.1, 30.0);
     const mc_surface one = as_new(&r, 0, 1.0);
     const mc_plan plan = {
         .histories = 100000, .shots = 1, .seed = 7, .length = LENGTH, .n = 1, .surface = &one, .stop = stop_soon
@@ -432,7 +363,7 @@ static void test_rims(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    make_rail(&r, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
     r.site[0] = (case_site){ .position = 2.1, .radius = 1e-3 };
     r.c.sites = (case_sites){ 1, r.site };
     const mc_surface one = as_new(&r, 0, 1.0);
@@ -452,7 +383,7 @@ static void test_rims(void **state)
     /* grains of the milling are gone after the first shot, debris comes again */
     for (int renewed = 0; renewed < 2; renewed++) {
         free(r.family);
-        make(&r, 5.0, 2e-4, 0.3, 1400.0, 0.0, 0.0);
+        make_rail(&r, 5.0, 2e-4, 0.3, 1400.0, 0.0, 0.0);
         r.population.renewed = renewed;
         for (int k = 0; k < 2; k++) r.record[k].entry.result.rim_height = 0.0;
         out = run(&one, 1, 20000, 2);
@@ -468,7 +399,7 @@ static void test_rims_keep_their_height(void **state)
 {
     (void)state;
     rail r;
-    make(&r, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    make_rail(&r, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
     r.family->aspect = 0.5;
     for (int k = 0; k < 2; k++) {
         r.record[k].entry.result.rim_height = 0.2e-3; /* 0.4 of the radius */
@@ -498,8 +429,8 @@ static void test_warm(void **state)
 {
     (void)state;
     rail cold, warm;
-    make(&cold, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
-    make(&warm, 20.0, 2e-4, 0.5, 1200.0, 0.0, 0.0);
+    make_rail(&cold, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    make_rail(&warm, 20.0, 2e-4, 0.5, 1200.0, 0.0, 0.0);
     for (int k = 0; k < 2; k++) {
         cold.record[k].entry.result.rim_height = warm.record[k].entry.result.rim_height = 0.0;
         cold.record[k].entry.result.crater_volume = 10.0 * 0.125e-9;
@@ -550,10 +481,10 @@ static void test_changes_together(void **state)
     (void)state;
     static const double threshold[MC_CHANGES] = { 1200.0, 1600.0, 1225.0 }, most[MC_CHANGES] = { 100.0, 2e-5, 5e-5 };
     rail fresh, other[MC_CHANGES];
-    make(&fresh, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    make_rail(&fresh, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
     mc_surface one = as_new(&fresh, 0, 1.0);
     for (int k = 0; k < MC_CHANGES; k++) {
-        make(&other[k], 20.0, 2e-4, 0.5, threshold[k], 0.0, 0.0);
+        make_rail(&other[k], 20.0, 2e-4, 0.5, threshold[k], 0.0, 0.0);
         for (int i = 0; i < 2; i++) {
             fresh.record[i].entry.result.rim_height = other[k].record[i].entry.result.rim_height = 0.0;
             fresh.record[i].entry.result.crater_volume = 10.0 * 0.125e-9;
@@ -602,8 +533,8 @@ static void test_bare(void **state)
         rail covered, bare;
         case_layer layer = { .thickness = all[i].thickness };
         const double over_crater = layer.thickness * 0.25 * PI * 4e-3 * 1e-3;
-        make(&covered, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
-        make(&bare, 1e-9, 2e-4, 0.5, 1900.0, 0.0, 0.0);
+        make_rail(&covered, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+        make_rail(&bare, 1e-9, 2e-4, 0.5, 1900.0, 0.0, 0.0);
         covered.site[0] = (case_site){ .position = 2.1, .radius = 1e-3 };
         covered.c.sites = (case_sites){ 1, covered.site };
         covered.c.impact.rail.layers = (case_layers){ 1, &layer };
