@@ -7,6 +7,7 @@
 #include "circuit_common.h"
 #include "full_common.h"
 #include "mpm_scenes.h"
+#include "rail_common.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -173,6 +174,29 @@ static void shots(void **state)
     every_failure(make_shot, "shot");
 }
 
+/* ---- random shots ---- */
+
+static rail rail_of_test;
+
+/* Two shots on each of two rails, with more rims than a list has room for at first. */
+static status make_random_shots(void)
+{
+    mc_result out;
+    const mc_surface two[] = { as_new(&rail_of_test, 0, 1.0), as_new(&rail_of_test, 1, 1.0) };
+    const mc_plan plan = { .histories = 1000, .shots = 2, .seed = 7, .length = LENGTH, .n = 2, .surface = two };
+    const status s = study_mc_run(&plan, &out);
+    study_mc_free(&out);
+    return s;
+}
+
+static void random_shots(void **state)
+{
+    (void)state;
+    make_rail(&rail_of_test, 100.0, 3e-4, 0.1, 1400.0, 0.0, 0.0);
+    every_failure(make_random_shots, "random shots");
+    free(rail_of_test.family);
+}
+
 /* ---- a scene of the solver ---- */
 
 /* A grain on a rail that a slab runs over: two levels, points that split, merge and change cells, cells that become
@@ -269,6 +293,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shots),
+        cmocka_unit_test(random_shots),
         cmocka_unit_test(scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -394,6 +394,21 @@ static void test_rims(void **state)
     free(r.family);
 }
 
+/* However many gouges a shot makes, the next one meets all their rims: where nothing else is left, as many again. */
+static void test_many_rims(void **state)
+{
+    (void)state;
+    rail r;
+    make_rail(&r, 1000.0, 3e-4, 0.1, 1400.0, 0.0, 0.0);
+    r.population.renewed = false;
+    const mc_surface one = as_new(&r, 0, 1.0);
+    mc_result out = run(&one, 1, 1000, 2);
+    assert_true(fabs(out.of[0].gouges / 1000.0 - 1.0) < 0.01);
+    assert_true(fabs(out.of[1].gouges / out.of[0].gouges - 1.0) < 0.01); /* 2.4 mm on of the last metre */
+    study_mc_free(&out);
+    free(r.family);
+}
+
 /* Grains half as high as wide: a rim of 0.4 mm is a grain of 0.8 mm radius to the second shot. */
 static void test_rims_keep_their_height(void **state)
 {
@@ -584,6 +599,7 @@ int main(void)
         cmocka_unit_test(test_own_error),
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_rims),
+        cmocka_unit_test(test_many_rims),
         cmocka_unit_test(test_rims_keep_their_height),
         cmocka_unit_test(test_table_and_sites),
         cmocka_unit_test(test_warm),

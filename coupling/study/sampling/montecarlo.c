@@ -14,8 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_RIMS = 256 };
-
 /* What is added up over all histories, for each surface and shot. */
 enum { GOUGES, VOLUME, FIRSTS, SUMS = FIRSTS + MC_BINS };
 
@@ -25,6 +23,11 @@ typedef struct {
     int family;
     bool bare; /* it stands on the rail's own metal, not on a layer */
 } grain;
+
+typedef struct {
+    size_t n, room;
+    grain *item; /* owned */
+} grain_list;
 
 /* A population on one surface. */
 typedef struct {
@@ -48,9 +51,9 @@ typedef struct {
     double ln_factor;        /* on sizes */
     double ln_smallest;      /* of a population's grains and of rims */
     int draws;
-    int rims, rims_next;
-    grain rim[MAX_RIMS], next[MAX_RIMS];
-    int gouges; /* of the shot under way */
+    grain_list rims, rims_next; /* that this shot meets, that it leaves */
+    bool rim_lost;              /* there was no memory for it */
+    int gouges;                 /* of the shot under way */
     double volume, first;
     double latest; /* volume of the gouge that was made last [m3] */
 } lane;
@@ -95,6 +98,21 @@ static int bin_of(const mc *m, double x)
 {
     const int bin = (int)(MC_BINS * x / m->plan->length);
     return bin < MC_BINS ? bin : MC_BINS - 1;
+}
+
+/* ---- lists of grains ---- */
+
+static bool add_grain(grain_list *l, grain g)
+{
+    if (l->n == l->room) {
+        const size_t room = l->room > 0 ? 2 * l->room : 64;
+        grain *more = realloc(l->item, room * sizeof *more);
+        if (!more) return false;
+        l->item = more;
+        l->room = room;
+    }
+    l->item[l->n++] = g;
+    return true;
 }
 
 /* ---- one grain on one surface ---- */
@@ -161,11 +179,12 @@ static gouge_mark mark_at(const lane *l, const grain *g, double v, const double 
 /* Where the gouge ends; on the rail's own metal if it wears the layers through, or is in such a place itself. */
 static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *m)
 {
-    if (l->rims_next == MAX_RIMS || !(m->rim > 0.0)) return;
+    if (!(m->rim > 0.0)) return;
     const double layers = l->layers - value_at(l, l->along->left[MC_WEAR], g->x);
     const bool bare = l->bare && (g->bare || study_layer_wear_is_through(m->layers_gone, m->depth * radius, layers));
     const double as_grain = m->rim * radius / l->grains->family[g->family].aspect; /* radius of a grain as high */
-    l->next[l->rims_next++] = (grain){ g->x + m->along * radius, log(as_grain), g->family, bare };
+    const grain left = { g->x + m->along * radius, log(as_grain), g->family, bare };
+    if (!add_grain(&l->rims_next, left)) l->rim_lost = true;
 }
 
 /* Does it gouge? */
@@ -199,8 +218,10 @@ static void meet_sites(lane *l)
 
 static void meet_rims(const mc *m, lane *l)
 {
-    for (int i = 0; i < l->rims; i++)
-        if (l->rim[i].ln_r >= l->ln_smallest && l->rim[i].x < m->plan->length) meet(l, &l->rim[i]);
+    for (size_t i = 0; i < l->rims.n; i++) {
+        const grain *g = &l->rims.item[i];
+        if (g->ln_r >= l->ln_smallest && g->x < m->plan->length) meet(l, g);
+    }
 }
 
 static double draw_deviate(const mc *m, const strewn *s)
@@ -243,13 +264,24 @@ static void strew(mc *m, int index, int number)
     }
 }
 
+/* The rims that a shot leaves are those that the next one meets. */
+static status hand_on_rims(lane *l)
+{
+    const grain_list met = l->rims;
+    CHECK(!l->rim_lost, STATUS_MEMORY, "no memory for the Monte Carlo");
+    l->rims = l->rims_next;
+    l->rims_next = met;
+    return status_ok();
+}
+
 /* The shot of this number, from 0, on all surfaces. */
-static void fire(mc *m, int number)
+static status fire(mc *m, int number)
 {
     for (int i = 0; i < m->plan->n; i++) {
         lane *l = &m->lane[i];
         if (!l->own) l->along = &m->plan->surface[i].along[number];
-        l->gouges = l->rims_next = 0;
+        l->gouges = 0;
+        l->rims_next.n = 0;
         l->volume = 0.0;
         l->first = INFINITY;
         if (number == 0) meet_sites(l);
@@ -257,11 +289,8 @@ static void fire(mc *m, int number)
     }
     for (int k = 0; k < m->out->populations; k++)
         if (number == 0 || m->strewn[k].p->renewed) strew(m, k, number);
-    for (int i = 0; i < m->plan->n; i++) {
-        lane *l = &m->lane[i];
-        memcpy(l->rim, l->next, (size_t)l->rims_next * sizeof *l->rim);
-        l->rims = l->rims_next;
-    }
+    for (int i = 0; i < m->plan->n; i++) TRY(hand_on_rims(&m->lane[i]));
+    return status_ok();
 }
 
 /* ---- counting ---- */
@@ -544,6 +573,8 @@ static void lane_free(lane *l)
     free(l->own);
     free(l->draw);
     free(l->strewn);
+    free(l->rims.item);
+    free(l->rims_next.item);
 }
 
 static void tear_down(mc *m)
@@ -567,9 +598,9 @@ static status run_all(mc *m, mc_result *out)
         begin_world(m, w);
         if (shown) host_progress_update(shown, (double)w / MC_WORLDS, 0);
         for (int h = 0; h < in_world && !stop_asked(m); h++) {
-            for (int i = 0; i < m->plan->n; i++) m->lane[i].rims = 0;
+            for (int i = 0; i < m->plan->n; i++) m->lane[i].rims.n = 0;
             for (int k = 0; k < m->plan->shots; k++) {
-                fire(m, k);
+                TRY(fire(m, k));
                 count(m, out, w, k);
             }
         }
