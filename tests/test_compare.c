@@ -29,6 +29,7 @@ static double growth_jumps = 0.0; /* so far from the threshold it is three e-fol
 static double grid_noise = 0.0;   /* of the growth, by a cell's shift along x [e-folds] */
 
 static double by_thickness = 0.0; /* of each layer [m/s/m] */
+static double by_size = 0.0;      /* of the grain, by the logarithm of its radius, off the threshold [m/s] */
 static double tear_drops = 0.0;   /* [m/s]; 0: shapes are not made up */
 static double lengthens = 0.0;    /* a short crater, by so much of its width with each m/s; 0: not made up [s/m] */
 
@@ -40,6 +41,7 @@ static double made_up_threshold(const case_impact *of)
     v += 80.0 * (of->armature.yield_scale - 1.0);
     v += 10.0 * (of->armature.lead_angle * 180.0 / PI - 30.0);
     v += 400.0 * of->scene.grid_shift[0];
+    v -= by_size * log(of->particle.radius / 0.3e-3);
     for (int i = 0; i < of->rail.layers.n; i++) {
         const case_layer *layer = &of->rail.layers.item[i];
         v += 80.0 * layer->yield_scale + (strcmp(layer->material, "steel_4340") == 0 ? 200.0 : 0.0);
@@ -816,6 +818,27 @@ static onset_answer studied(breech_case *c, const char *dir, status want)
     snprintf(warned, sizeof warned, "%s", s.warnings ? s.warnings : "");
     OK(run_session_close(&s, true));
     return a;
+}
+
+/* Where larger grains gouge earlier, the sensitivity to their size says the threshold of the larger one. */
+static void test_larger_grains(void **state)
+{
+    (void)state;
+    static const double MEDIAN = 0.3e-3;
+    breech_case *c = read(HEAD GRAINS, CASE_FOR_ONSET);
+    c->study.sensitivities = true;
+    by_size = 400.0;
+    onset_answer a = studied(c, "larger", status_ok());
+    by_size = 0.0;
+    const onset_result *r = &a.result;
+    const onset_sensitivity *size = &r->sensitivities[3];
+    assert_string_equal(size->input, "grain size");
+    assert_true(r->threshold_velocity == study_surface_at(&a.grains.family[0].surface, MEDIAN).velocity);
+    assert_true(size->threshold_velocity == study_surface_at(&a.grains.family[0].surface, 1.05 * MEDIAN).velocity);
+    assert_true(r->threshold_velocity - size->threshold_velocity > 10.0); /* 400 m/s ln(1.05) = 19.5, where bands end */
+    assert_true(size->threshold_position < r->threshold_position && size->expected_gouges > r->expected_gouges);
+    study_onset_answer_free(&a);
+    case_free(c);
 }
 
 static int scenes_begin(const onset_scene *scene, int n, const char *prefix)
@@ -1805,6 +1828,7 @@ int main(void)
         cmocka_unit_test(test_what_layers_suffer),
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_population_onset),
+        cmocka_unit_test(test_larger_grains),
         cmocka_unit_test(test_feedback_of_populations),
         cmocka_unit_test(test_too_small),
         cmocka_unit_test(test_no_craters),

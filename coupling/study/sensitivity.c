@@ -94,7 +94,7 @@ static void conclude(const onset_answer *a, const changed *with, const mc_result
     double radius;
     const grain_family *leading = study_onset_leading_grain(a, &radius);
     const grain_family *f = leading ? study_family_alike(&with->grains, leading) : NULL;
-    const double v = f ? study_surface_at(&f->surface, radius).velocity : NAN;
+    const double v = f ? study_surface_at(&f->surface, with->size_factor * radius).velocity : NAN;
     snprintf(out->input, sizeof out->input, "%s", with->input);
     out->change = with->change;
     out->muzzle_velocity = with->record.is.muzzle_velocity;
