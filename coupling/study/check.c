@@ -84,13 +84,6 @@ static bool has_grain_before(const case_sites *sites, int i)
     return false;
 }
 
-int study_grain_kinds(const case_onset *c)
-{
-    int n = c->populations.n;
-    for (int i = 0; i < c->sites.n; i++) n += !has_grain_before(&c->sites, i);
-    return n;
-}
-
 /* A grain of a population, of this size. */
 static case_site grain_of(const case_population *p, double radius)
 {
@@ -338,7 +331,7 @@ void study_check_searches(const case_inputs *in, FILE *out)
         fprintf(out, "warning: study.max_scenes = %d: a limit velocity lies between two arrivals at least\n", most);
     if (!c->has_body || (c->sites.n == 0 && c->populations.n == 0)) return;
     const case_impact probe = study_family_probe(c);
-    const int kinds = study_grain_kinds(c), craters = case_impact_is_gauged(&probe) ? c->study.craters * kinds : 0;
+    const int kinds = study_family_kinds(c), craters = case_impact_is_gauged(&probe) ? c->study.craters * kinds : 0;
     const int left = most - craters;
     if (left < LEAST_OF_BRACKET * kinds)
         fprintf(out,

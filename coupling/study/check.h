@@ -36,9 +36,6 @@ status study_check_print(const case_inputs *in, const check_machine *on, unsigne
 /* The scene of the case as a case of bodies, with every value resolved.  STATUS_BAD_INPUT: it has none. */
 status study_print_scene(const case_inputs *in, FILE *out);
 
-/* Kinds of grains among sites and populations: at most so many searches. */
-int study_grain_kinds(const case_onset *c);
-
 /* The scene of the case; then of its first site, or of the median grain of its first population, both ends of the
  * search's range, and with each treatment its slow end, as many of these as there is room for; *n of them.  The first
  * that is small runs for some tenths of a second: *rate is what it took a point and step [s], NAN: none is small. */

@@ -5,6 +5,7 @@
 #include "coupling/host/machine.h"
 #include "coupling/host/table.h"
 #include "coupling/study/scene_doubts.h"
+#include "coupling/study/search/family.h"
 #include "coupling/study/study.h"
 
 #include <math.h>
@@ -108,7 +109,7 @@ static void print_searches(const case_inputs *in, const scene_estimate *e, int n
 {
     const case_onset *c = &in->onset;
     char whole[80] = "", text[100];
-    const int craters = c->study.judge == JUDGE_GROWTH ? c->study.craters * study_grain_kinds(c) : 0;
+    const int craters = c->study.judge == JUDGE_GROWTH ? c->study.craters * study_family_kinds(c) : 0;
     if (craters > 0) snprintf(whole, sizeof whole, ", of which %d are kept for whole craters (study.craters)", craters);
     if (c->study.ensemble > 0) fprintf(out, "scene: on %d grids, each as above\n", c->study.ensemble);
     if (c->sites.n > 0 || c->populations.n > 0)

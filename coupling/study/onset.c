@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/onset.h"
-#include "coupling/study/check.h"
 
 #include "coupling/gouge/screen.h"
 #include "coupling/study/feedback.h"
@@ -400,7 +399,7 @@ status study_onset_list_scenes(session *s, onset_scene **out, int *n, int *run, 
 
 status study_onset_possible(const case_onset *c)
 {
-    const int most = study_grain_kinds(c) * (1 + (c->study.judge == JUDGE_GROWTH ? c->study.craters : 0));
+    const int most = study_family_kinds(c) * (1 + (c->study.judge == JUDGE_GROWTH ? c->study.craters : 0));
     const bool follows = c->study.shots > 1;
     if (!follows && most <= c->study.max_scenes) return status_ok();
     onset_answer a;

@@ -23,10 +23,16 @@ static bool same_number(double a, double b)
     return a == b || (isnan(a) && isnan(b));
 }
 
+/* But for their sizes; each with its height over radius. */
+static bool alike(const case_site *a, double aspect_a, const case_site *b, double aspect_b)
+{
+    return fabs(aspect_a - aspect_b) < 1e-9 && strcmp(a->shape, b->shape) == 0 &&
+           strcmp(a->material, b->material) == 0 && same_number(a->bond_strength, b->bond_strength);
+}
+
 static bool same_family(const grain_family *f, const case_site *grain, double aspect)
 {
-    return fabs(f->aspect - aspect) < 1e-9 && strcmp(f->grain.shape, grain->shape) == 0 &&
-           strcmp(f->grain.material, grain->material) == 0 && same_number(f->grain.bond_strength, grain->bond_strength);
+    return alike(&f->grain, f->aspect, grain, aspect);
 }
 
 static int family_for(grain_families *f, const case_site *grain, double aspect)
@@ -37,6 +43,42 @@ static int family_for(grain_families *f, const case_site *grain, double aspect)
     fresh->grain = *grain;
     fresh->aspect = aspect;
     return f->n++;
+}
+
+/* One of a population; its size is the family's to say. */
+static case_site grain_of(const case_population *p)
+{
+    case_site grain = { .position = NAN, .bond_strength = p->bond_strength };
+    memcpy(grain.shape, p->shape, sizeof grain.shape);
+    memcpy(grain.material, p->material, sizeof grain.material);
+    return grain;
+}
+
+/* The k-th of the sites, then of the populations. */
+static case_site grain_at(const case_onset *c, int k, double *aspect)
+{
+    const bool is_site = k < c->sites.n;
+    const case_site grain = is_site ? c->sites.item[k] : grain_of(&c->populations.item[k - c->sites.n]);
+    *aspect = is_site ? grain.height / grain.radius : c->populations.item[k - c->sites.n].aspect;
+    return grain;
+}
+
+static bool is_new_kind(const case_onset *c, int k)
+{
+    double aspect, former;
+    const case_site grain = grain_at(c, k, &aspect);
+    for (int i = 0; i < k; i++) {
+        const case_site before = grain_at(c, i, &former);
+        if (alike(&before, former, &grain, aspect)) return false;
+    }
+    return true;
+}
+
+int study_family_kinds(const case_onset *c)
+{
+    int kinds = 0;
+    for (int k = 0; k < c->sites.n + c->populations.n; k++) kinds += is_new_kind(c, k);
+    return kinds;
 }
 
 static status add_size(surface_plan *p, double size, double weight)
@@ -87,15 +129,6 @@ static status sort_sites(grain_families *f)
         TRY(add_size(&f->family[f->of_site[i]].plan, grain->radius, 1.0));
     }
     return status_ok();
-}
-
-/* One of a population; its size is the family's to say. */
-static case_site grain_of(const case_population *p)
-{
-    case_site grain = { .position = NAN, .bond_strength = p->bond_strength };
-    memcpy(grain.shape, p->shape, sizeof grain.shape);
-    memcpy(grain.material, p->material, sizeof grain.material);
-    return grain;
 }
 
 static status sort_populations(grain_families *f)

@@ -70,6 +70,9 @@ typedef struct {
     double screen_probability; /* that one of the unbacked gouges: the largest; 0: there are none [1] */
 } grain_families;
 
+/* Kinds of grains among sites and populations, alike in all but size: at most so many families. */
+int study_family_kinds(const case_onset *c);
+
 /* Sorts sites and populations into families and plans their searches, of the gouge alone.  study_families_free even on
  * error. */
 status study_families_sort(const case_onset *c, const shot_outcome *flown, const char *prefix, grain_families *out);
