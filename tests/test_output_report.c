@@ -301,14 +301,24 @@ static void add_to_summary(const char *dir, const char *const (*more)[2], int n)
 }
 
 /* What a designer is told to keep below is the interval's end, by this case's grains and cells; below three cells a
- * radius nothing of it is said. */
+ * radius in the search nothing of it is said, however fine the cells of whole craters are. */
 static void advice_is_no_surer_than_the_interval(void **state)
 {
     (void)state;
-    static const char *const cells[] = { "2.9", "3" };
-    for (int k = 0; k < 2; k++) {
-        char scenes[100];
-        snprintf(scenes, sizeof scenes, "[{\"name\":\"v1\",\"cells_per_radius\":%s}]", cells[k]);
+    static const struct {
+        const char *cells, *gauged, *of_craters;
+        bool advises;
+    } of[] = { { "2.9", "false", "2.9", false },
+               { "3", "false", "3", true },
+               { "2.9", "true", "6", false },
+               { "3", "true", "6", true } };
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        const int k = of[i].advises;
+        char scenes[200];
+        snprintf(scenes, sizeof scenes,
+                 "[{\"name\":\"v1\",\"cells_per_radius\":%s,\"gauged\":%s},"
+                 "{\"name\":\"v2\",\"cells_per_radius\":%s,\"gauged\":false}]",
+                 of[i].cells, of[i].gauged, of[i].of_craters);
         const char *const more[][2] = { { "scenes", scenes },
                                         { "threshold_interval", "[1450,1510]" },
                                         { "threshold_position_interval", "[1.9,2.1]" } };

@@ -9,6 +9,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* ---- scenes ---- */
+
+/* It ended once the growth of its groove was known: judged by growth, those of the search do. */
+static bool is_gauged(const cJSON *scene)
+{
+    return cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(scene, "gauged"));
+}
+
+static bool are_judged_by_growth(const cJSON *scenes)
+{
+    const cJSON *scene;
+    cJSON_ArrayForEach(scene, scenes)
+    {
+        if (is_gauged(scene)) return true;
+    }
+    return false;
+}
+
 /* ---- the two speeds ---- */
 
 typedef struct {
@@ -296,14 +314,19 @@ static void how_sure(const page *p)
 
 /* ---- what to do ---- */
 
-/* What is said of the case's own grains is said only at a resolution at which the interval is one. */
-static bool is_resolved(const cJSON *summary)
+/* What is said of the case's own grains is said only where the search had a resolution at which the interval is one;
+ * whole craters, which may have finer cells, say nothing of it. */
+static bool is_resolved(const cJSON *scenes)
 {
     static const double TRUSTED_CELLS = 3.0; /* a radius; the limit of the run's own warning (onset_judge.c) */
+    const bool by_growth = are_judged_by_growth(scenes);
     double finest = NAN;
     const cJSON *scene;
-    cJSON_ArrayForEach(scene, cJSON_GetObjectItemCaseSensitive(summary, "scenes")) finest =
-        fmax(finest, report_number(scene, "cells_per_radius"));
+    cJSON_ArrayForEach(scene, scenes)
+    {
+        const bool searched = is_gauged(scene) || !by_growth;
+        if (searched) finest = fmax(finest, report_number(scene, "cells_per_radius"));
+    }
     return finest >= TRUSTED_CELLS;
 }
 
@@ -370,7 +393,7 @@ static void what_to_do(const page *p)
 {
     const cJSON *change;
     fputs("<section><h2>What can be done about it?</h2>\n<ul>\n", p->out);
-    if (is_resolved(p->source->summary)) {
+    if (is_resolved(report_page_list(p, "scenes"))) {
         say_where(p);
         say_slower(p);
     }
@@ -559,9 +582,8 @@ static const page_column repeated_columns[] = {
 void report_onset_threshold_chart(const page *p, const char *name, const char *caption, const cJSON *bounds,
                                   const char *prefix)
 {
-    const cJSON *scenes = report_page_list(p, "scenes"), *item;
-    bool gauged = false; /* judged by growth, which whole scenes have too */
-    cJSON_ArrayForEach(item, scenes) gauged = gauged || cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(item, "gauged"));
+    const cJSON *scenes = report_page_list(p, "scenes");
+    const bool gauged = are_judged_by_growth(scenes); /* which whole scenes have too */
     report_chart *c = report_chart_create(
         (report_axis){ .label = "velocity", .unit = "m/s" },
         (report_axis){ .label = gauged ? "growth of the groove" : "severity", .unit = gauged ? "1/\302\265s" : "1" });
@@ -615,8 +637,7 @@ void report_onset_scene_tables(const page *p)
     report_page_list_table(p, scenes, scene_columns, PAGE_COUNT(scene_columns));
     cJSON_ArrayForEach(item, scenes)
     {
-        if (!cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(item, "gauged")))
-            cJSON_AddItemReferenceToArray(whole, (cJSON *)item);
+        if (!is_gauged(item)) cJSON_AddItemReferenceToArray(whole, (cJSON *)item);
     }
     if (cJSON_GetArraySize(whole) > 0) {
         fputs("<h3>Craters of the scenes that ran to their end</h3>\n", p->out);
