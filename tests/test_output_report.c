@@ -520,6 +520,23 @@ static void study_pages_have_their_sections(void **state)
     free(text);
 }
 
+/* Grains of populations have no place of their own: the barrel is drawn all the same, and how probable a gouge is. */
+static void populations_have_a_barrel_too(void **state)
+{
+    (void)state;
+    static const char *const more[][2] = { { "sites", "[]" },
+                                           { "along", "[0,1.5,3]" },
+                                           { "probability_along", "[0,0.25,0.75]" } };
+    write_run("report", STUDY_onset);
+    add_to_summary("report", more, 3);
+    char *text = page_of("report");
+    is_self_contained(text);
+    assert_int_equal(text_count(text, ">Along the barrel</h2>"), 1);
+    assert_true(host_file_exists("report/plot-barrel.svg") && host_file_exists("report/plot-probability.svg"));
+    assert_null(strstr(text, "p/H"));
+    free(text);
+}
+
 /* ---- a real browser ---- */
 
 #define BROWSER                                                                      \
@@ -617,6 +634,7 @@ static void failed_run_has_a_page_too(void **state)
     assert_non_null(strstr(text, "it broke"));
     assert_non_null(strstr(text, "history.h5 is not there"));
     assert_null(strstr(text, "This rail gouges"));
+    assert_null(strstr(text, "Along the barrel"));
     free(text);
 }
 
@@ -645,6 +663,7 @@ int main(void)
         cmocka_unit_test(advice_is_no_surer_than_the_interval),
         cmocka_unit_test(same_files_same_page),
         cmocka_unit_test(study_pages_have_their_sections),
+        cmocka_unit_test(populations_have_a_barrel_too),
         cmocka_unit_test(a_browser_reads_it),
         cmocka_unit_test(a_rim_that_is_not_the_highest_is_explained),
         cmocka_unit_test(failed_run_has_a_page_too),

@@ -483,10 +483,10 @@ static void draw_dots(report_chart *c, const cJSON *list, const points *of)
     free(y);
 }
 
-static void draw_barrel(const page *p)
+static void draw_barrel(const page *p, double end)
 {
     const report_source *r = p->source;
-    const double end = barrel_end(r);
+    const cJSON *sites = report_page_list(p, "sites");
     report_curve c = report_curve_read(r, "/shot/position", "/shot/velocity");
     report_chart *chart = report_chart_create(
         (report_axis){ .label = "position along the barrel", .unit = "m", .from_zero = true, .fixed = true },
@@ -496,8 +496,11 @@ static void draw_barrel(const page *p)
                           report_element(r->summary, speeds[k].interval, 0),
                           report_element(r->summary, speeds[k].interval, 1));
     report_chart_line(chart, "armature", report_blue, c.x, c.y, isfinite(end) ? report_curve_until(&c, end) : c.n);
-    draw_dots(chart, report_page_list(p, "sites"), &(points){ "outcome", "position", "velocity", NULL, 1.0, 1.0 });
-    report_page_chart(p, "barrel", "The armature's velocity, the grains by outcome, and the intervals of both speeds.",
+    draw_dots(chart, sites, &(points){ "outcome", "position", "velocity", NULL, 1.0, 1.0 });
+    report_page_chart(p, "barrel",
+                      cJSON_GetArraySize(sites) > 0
+                          ? "The armature's velocity, the grains by outcome, and the intervals of both speeds."
+                          : "The armature's velocity and the intervals of both speeds.",
                       chart);
     report_curve_free(&c);
 }
@@ -520,6 +523,22 @@ static void draw_probability(const page *p)
     }
     free(x);
     free(y);
+}
+
+static void section_barrel(const page *p)
+{
+    const cJSON *sites = report_page_list(p, "sites");
+    const double end = barrel_end(p->source);
+    const bool listed = cJSON_GetArraySize(sites) > 0;
+    if (!listed && !(end > 0.0) && cJSON_GetArraySize(report_page_list(p, "along")) < 2) return;
+    report_page_heading(p, "Along the barrel");
+    report_page_plots_begin(p);
+    draw_barrel(p, end);
+    draw_probability(p);
+    report_page_plots_end(p);
+    report_page_list_table(p, sites, site_columns, PAGE_COUNT(site_columns));
+    if (listed)
+        report_page_paragraph(p, "reason", "p/H: pressure of the impact over the hardness of the harder partner.");
 }
 
 /* ---- the threshold ---- */
@@ -697,15 +716,7 @@ static void section_sensitivities(const page *p)
 
 void report_onset_section(const page *p)
 {
-    if (cJSON_GetArraySize(report_page_list(p, "sites")) > 0) {
-        report_page_heading(p, "Along the barrel");
-        report_page_plots_begin(p);
-        draw_barrel(p);
-        draw_probability(p);
-        report_page_plots_end(p);
-        report_page_list_table(p, report_page_list(p, "sites"), site_columns, PAGE_COUNT(site_columns));
-        report_page_paragraph(p, "reason", "p/H: pressure of the impact over the hardness of the harder partner.");
-    }
+    section_barrel(p);
     section_threshold(p);
     report_page_listed(p, "interval_parts", "What the intervals hold, and what was not asked for", part_columns,
                        PAGE_COUNT(part_columns));
