@@ -258,6 +258,11 @@ static void test_what_they_do(void **state)
     assert_true(treated.launcher.armature.friction_dry == 0.15 && treated.launcher.armature.friction_melted == 0.025);
     assert_true(treated.impact.scene.friction == 0.025); /* half of all three */
     case_treated_free(&treated);
+    given.launcher.armature.friction_law = CIRCUIT_SHOT_FRICTION_FILM; /* reads the melt's viscosity instead */
+    OK(case_treat(&given, &c->treatments.item[TREATMENT_friction], &treated));
+    assert_true(treated.launcher.armature.friction_dry == 0.15 && treated.launcher.armature.friction_melted == 0.05);
+    assert_true(treated.launcher.armature.film_viscosity == 0.5 * given.launcher.armature.film_viscosity);
+    case_treated_free(&treated);
     case_free(c);
 }
 
@@ -391,6 +396,16 @@ static void test_impossible(void **state)
     const status s = possible(c);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "treatment `flat`"));
+    case_free(c);
+    /* a film without viscosity; no friction at all may be had by the other law */
+    c = read(HEAD GRAINS "treatments: [{name: smooth, friction: {factor: 0}}]\n", ALL);
+    OK(possible(c));
+    case_inputs film = case_inputs_of(c);
+    film.onset.launcher.armature.friction_law = CIRCUIT_SHOT_FRICTION_FILM;
+    film.onset.launcher.armature.wear_fraction = 0.03;
+    const status none = study_possible(&film, ALL, NULL);
+    assert_int_equal(none.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(none.text, "treatment `smooth`: armature.film_viscosity = 0 Pa s"));
     case_free(c);
     /* more tabulated sizes than are searched for; the smallest of these are too small to count */
     for (int n = 27; n < 29; n++) {

@@ -6,14 +6,18 @@ enum { FACTOR };
 
 const base_param case_treatment_friction_params[] = {
     TREATMENT_VALUE(FACTOR, "factor", "1", REQUIRED, 0.0, 10.0,
-                    "on the coefficients of the shot, dry and melted, and of the scenes"),
+                    "on the coefficients of the shot, dry and melted (law film: film_viscosity), and of the scenes"),
     PARAMS_END,
 };
 
 status case_treatment_friction_apply(const treatment_settings *t, case_onset *c)
 {
-    c->launcher.armature.friction_dry *= t->value[FACTOR];
-    c->launcher.armature.friction_melted *= t->value[FACTOR];
+    circuit_shot_armature *a = &c->launcher.armature;
+    a->friction_dry *= t->value[FACTOR];
+    if (a->friction_law == CIRCUIT_SHOT_FRICTION_FILM)
+        a->film_viscosity *= t->value[FACTOR];
+    else
+        a->friction_melted *= t->value[FACTOR];
     c->impact.scene.friction *= t->value[FACTOR];
     return status_ok();
 }

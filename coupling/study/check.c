@@ -113,7 +113,7 @@ static status grains_possible(const case_onset *c, size_t *largest)
     return status_ok();
 }
 
-static status treatments_possible(const case_onset *c, const case_treatments *all, size_t *largest)
+static status treatments_possible(const case_onset *c, const case_treatments *all, bool shoots, size_t *largest)
 {
     for (int i = 0; i < all->n; i++) {
         case_onset treated;
@@ -122,6 +122,7 @@ static status treatments_possible(const case_onset *c, const case_treatments *al
         if (made && case_treated_alike(c, &treated))
             s = base_status_error(STATUS_BAD_INPUT, "changes nothing of the rail as it is: give it another value, or "
                                                     "leave it out");
+        if (s.code == STATUS_OK && shoots) s = circuit_shot_check(&treated.launcher);
         if (s.code == STATUS_OK) s = grains_possible(&treated, largest);
         case_treated_free(&treated);
         CHECK(s.code == STATUS_OK, s.code, "%s%s%s%.400s", made ? "treatment `" : "", made ? all->item[i].name : "",
@@ -147,12 +148,13 @@ status study_possible(const case_inputs *in, unsigned needs, size_t *largest)
     }
     const case_onset *c = &in->onset;
     circuit_rail_section section;
+    const bool shoots = needs & (CASE_FOR_SHOT | CASE_FOR_ONSET);
     if (needs & CASE_FOR_INDUCTANCE) TRY(circuit_rails_section(&c->launcher.rails, &section));
-    if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_rails_check(&c->launcher.rails));
-    if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&c->launcher));
+    if (shoots) TRY(circuit_rails_check(&c->launcher.rails));
+    if (shoots) TRY(circuit_shot_check(&c->launcher));
     if ((needs & CASE_FOR_SCENE) && !in->given.bodies) TRY(scene_possible(&c->impact, largest));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c, largest));
-    return needs & CASE_FOR_COMPARE ? treatments_possible(c, &in->treatments, largest) : status_ok();
+    return needs & CASE_FOR_COMPARE ? treatments_possible(c, &in->treatments, shoots, largest) : status_ok();
 }
 
 /* ---- what would they take? ---- */
