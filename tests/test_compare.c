@@ -611,21 +611,22 @@ static void test_ranking(void **state)
 }
 
 /* Life beside grains: the ranking by gouges is what it is without, and every surface has its life.  A rail that is
- * flown warm lasts longer; a hardened skin as long as none, and shares its rank by life. */
+ * flown warm lasts longer; a hardened skin as long as none, and shares its rank by life.  Of a metal with a limit of
+ * fatigue they all last for good. */
 static void test_life_beside_grains(void **state)
 {
     (void)state;
     static const char text[] = HEAD GRAINS "treatments:\n  - {name: hardened, hardening: {depth: 0.4 mm, factor: 2}}\n"
                                            "  - {name: warm, preheat: {temperature: 400 K}}\n%s";
-    static const char life[] =
-        "materials:\n  - {name: tired, density: 8960 kg/m3, youngs_modulus: 124 GPa, poisson: 0.34, "
-        "melting_temperature: "
-        "1356 K,\n     expansion: 17e-6 1/K, fatigue_A: 9.14, fatigue_m: 2.237, fatigue_A_spread: 1.1}\n"
-        "life: {load: armature, material: tired, places: 3}\n";
-    compare_answer of[2];
-    for (int k = 0; k < 2; k++) {
+#define LIFE(limit)                                                                                \
+    "materials:\n  - {name: tired, density: 8960 kg/m3, youngs_modulus: 124 GPa, poisson: 0.34, "  \
+    "melting_temperature: 1356 K,\n     expansion: 17e-6 1/K, fatigue_A: 9.14, fatigue_m: 2.237, " \
+    "fatigue_A_spread: 1.1" limit "}\nlife: {load: armature, material: tired, places: 3}\n"
+    static const char *const life[] = { "", LIFE(""), LIFE(", fatigue_limit: 0.1") };
+    compare_answer of[3];
+    for (int k = 0; k < 3; k++) {
         char whole[4000];
-        snprintf(whole, sizeof whole, text, k ? life : "");
+        snprintf(whole, sizeof whole, text, life[k]);
         breech_case *c = read(whole, k ? ALL | CASE_FOR_LIFE : ALL);
         OK(run_compare(c, "life", &of[k]));
         case_free(c);
@@ -636,12 +637,48 @@ static void test_life_beside_grains(void **state)
         assert_true(without->gouges == with->gouges && without->threshold_velocity == with->threshold_velocity);
         assert_true(isnan(without->life) && without->life_rank == 0);
         assert_true(with->life > 0.0 && with->life_quantiles[0] < with->life && with->life < with->life_quantiles[2]);
+        const compare_entry *endless = &of[2].result.ranking[i];
+        assert_true(endless->lasts && isnan(endless->life) && endless->life_rank == 1 && !with->lasts);
     }
     const compare_entry *plain = entry_of(&of[1], "untreated"), *hard = entry_of(&of[1], "hardened"),
                         *warm = entry_of(&of[1], "warm");
     assert_true(warm->life > plain->life && warm->life_rank == 1);
     assert_true(hard->life == plain->life && hard->life_rank == 2 && plain->life_rank == 2);
-    study_compare_answer_free(&of[0]), study_compare_answer_free(&of[1]);
+    for (int k = 0; k < 3; k++) study_compare_answer_free(&of[k]);
+}
+
+/* What the closing lines say of the longest life. */
+static void test_longest_life(void **state)
+{
+    (void)state;
+    static const struct {
+        compare_entry of[2];
+        const char *says; /* NULL: no such line */
+    } all[] = {
+        { { { .surface = "a", .life = 1e4, .life_rank = 1 }, { .surface = "b", .life = 2e4, .life_rank = 1 } },
+          "\nlongest life: b, a crack after 2e+04 shots; others cannot be told apart from it\n" },
+        { { { .surface = "a", .life = 1e4, .life_rank = 2 }, { .surface = "b", .life = 2e4, .life_rank = 1 } },
+          "\nlongest life: b, a crack after 2e+04 shots\n" },
+        { { { .surface = "a", .life = NAN, .lasts = true, .life_rank = 1 },
+            { .surface = "b", .life = 1e4, .life_rank = 2 } },
+          "\nlongest life: a, which lasts for good\n" },
+        { { { .surface = "a", .life = NAN, .lasts = true, .life_rank = 1 },
+            { .surface = "b", .life = NAN, .lasts = true, .life_rank = 1 } },
+          "\nlongest life: a, which lasts for good; others cannot be told apart from it\n" },
+        { { { .surface = "a", .life = NAN, .life_rank = 1 }, { .surface = "b", .life = NAN, .life_rank = 1 } }, NULL },
+        { { { .surface = "a", .life = NAN }, { .surface = "b", .life = NAN } }, NULL },
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        const compare_result r = { .n = 2, .ranking = all[i].of, .verdict = "the verdict" };
+        char *text = NULL;
+        size_t size = 0;
+        FILE *out = open_memstream(&text, &size);
+        assert_non_null(out);
+        study_compare_print(&r, out);
+        fclose(out);
+        if (all[i].says ? !strstr(text, all[i].says) : strstr(text, "longest life") != NULL) fail_msg("%s", text);
+        free(text);
+    }
 }
 
 /* Each surface is as good as its neighbour, within what is known; the last is worse than the best all the same. */
@@ -1836,6 +1873,7 @@ int main(void)
         cmocka_unit_test(test_presets),
         cmocka_unit_test(test_ranking),
         cmocka_unit_test(test_life_beside_grains),
+        cmocka_unit_test(test_longest_life),
         cmocka_unit_test(test_no_chain_of_ties),
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_screened_surface),

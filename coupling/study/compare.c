@@ -208,6 +208,7 @@ static void fill_life(const life_entry *of, compare_entry *e)
     static const double unknown[3] = { NAN, NAN, NAN };
     e->life = of ? of->is.life : NAN;
     memcpy(e->life_quantiles, of ? of->is.quantiles : unknown, sizeof e->life_quantiles);
+    e->lasts = of && of->is.lasting;
     e->life_rank = of ? of->tied : 0;
 }
 

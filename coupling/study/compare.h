@@ -42,6 +42,7 @@ typedef struct {
     double layer_failed;    /* share of the layers over the crater that failed [1] */
     double layer_velocity;  /* of the scene that says so [m/s] */
     double life, life_quantiles[3]; /* shots until a crack (life_compare.h); NAN: not asked for or not known [1] */
+    bool lasts;                     /* for good: no life is known because it never cracks */
     int life_rank;                  /* tied, by life; 0: not asked for */
     int n_parts;
     const onset_part *part; /* n_parts, of the intervals; borrowed from the surface's answer */

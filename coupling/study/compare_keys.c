@@ -151,18 +151,29 @@ static void print_left(const compare_result *c, FILE *out)
     host_table_free(t);
 }
 
-/* Which surface lasts longest? */
+static double life_of(const compare_entry *e)
+{
+    return e->lasts ? INFINITY : e->life;
+}
+
+/* Which surface lasts longest?  Nothing where none is judged. */
 static void print_life(const compare_result *c, FILE *out)
 {
     const compare_entry *best = NULL;
     int tied = 0;
     for (int i = 0; i < c->n; i++) {
-        tied += c->ranking[i].life_rank == 1;
-        if (c->ranking[i].life_rank == 1 && !(best && best->life >= c->ranking[i].life)) best = &c->ranking[i];
+        const compare_entry *e = &c->ranking[i];
+        if (e->life_rank != 1) continue;
+        if (!best || life_of(e) > life_of(best)) best = e;
+        tied++;
     }
-    if (!best || isnan(best->life)) return;
-    fprintf(out, "longest life: %s, a crack after %.3g shots%s\n", best->surface, best->life,
-            tied > 1 ? "; others cannot be told apart from it" : "");
+    if (!best || isnan(life_of(best))) return;
+    fprintf(out, "longest life: %s, ", best->surface);
+    if (best->lasts)
+        fputs("which lasts for good", out);
+    else
+        fprintf(out, "a crack after %.3g shots", best->life);
+    fputs(tied > 1 ? "; others cannot be told apart from it\n" : "\n", out);
 }
 
 void study_compare_print(const void *result, FILE *out)
