@@ -686,13 +686,14 @@ static void test_no_chain_of_ties(void **state)
 {
     (void)state;
     breech_case *c = read(HEAD GRAINS "treatments:\n"
+                                      "  - {name: 31 deg, lead_angle: {angle: 31 deg}}\n"
                                       "  - {name: 32 deg, lead_angle: {angle: 32 deg}}\n"
+                                      "  - {name: 33 deg, lead_angle: {angle: 33 deg}}\n"
                                       "  - {name: 34 deg, lead_angle: {angle: 34 deg}}\n"
-                                      "  - {name: 36 deg, lead_angle: {angle: 36 deg}}\n"
-                                      "  - {name: 38 deg, lead_angle: {angle: 38 deg}}\n"
-                                      "  - {name: 40 deg, lead_angle: {angle: 40 deg}}\n",
+                                      "  - {name: 35 deg, lead_angle: {angle: 35 deg}}\n",
                           ALL);
     compare_answer a;
+    c->study.sampled = 100000; /* a hundred a world, whose chance then hardly counts */
     OK(run_compare(c, "chain", &a));
     const compare_entry *e = a.result.ranking;
     for (int i = 0; i < 5; i++) assert_true(!e[i].significant);
@@ -958,7 +959,8 @@ static void test_uncertain_inputs(void **state)
     case_free(c);
 }
 
-/* Uncertain inputs widen the interval of every surface that is compared, by searches of its own. */
+/* Uncertain inputs widen the interval of every surface that is compared, by searches of its own.  A hardened skin is of
+ * the rail's metal, and as uncertain: its 80 m/s for a yield_scale of 1 rise by 240 where 3 become 6. */
 static void test_uncertain_surfaces(void **state)
 {
     (void)state;
@@ -971,11 +973,12 @@ static void test_uncertain_surfaces(void **state)
     for (int i = 0; i < 2; i++) {
         const char *surface = i ? "hard" : "untreated";
         const compare_entry *a = entry_of(&sure, surface), *b = entry_of(&unsure, surface);
-        const double resolution = 0.1 * a->threshold_velocity, wider = hypot(resolution, 150.0) - resolution;
+        const double moved = i ? 390.0 : 150.0, resolution = 0.1 * a->threshold_velocity,
+                     wider = hypot(resolution, moved) - resolution;
         assert_true(a->threshold_velocity == b->threshold_velocity);
         assert_true(fabs(a->threshold_interval[0] - b->threshold_interval[0] - wider) < 0.5 * wider);
         assert_true(fabs(b->threshold_interval[1] - a->threshold_interval[1] - wider) < 0.5 * wider);
-        assert_true(b->n_parts == ONSET_PARTS && fabs(b->part[3].threshold_above - 150.0) < 15.0);
+        assert_true(b->n_parts == ONSET_PARTS && fabs(b->part[3].threshold_above - moved) < 0.1 * moved);
         assert_true(isnan(a->part[3].threshold_above));
     }
     for (int i = 0; i < unsure.result.n_scenes; i++) {
@@ -1008,6 +1011,7 @@ static void test_scatter_of_surfaces(void **state)
     breech_case *c = read(HEAD GRAINS "treatments:\n  - {name: hard, hardening: {depth: 0.4 mm, factor: 2}}\n", ALL);
     compare_answer one, many;
     int shifted[2] = { 0, 0 };
+    c->study.sampled = 100000;
     OK(run_compare(c, "one-grid", &one));
     assert_true(one.result.ranking[1].tied == 2 && strstr(warned, "thresholds are of one grid each"));
     case_interval_part place = { "place of the grid", 0.4, 0.0, false };

@@ -276,10 +276,12 @@ static void order_of(const compare_answer *a, int *order)
     }
 }
 
-/* Grains that no scene was run for are not drawn: such a surface has fewer gouges by the screen's word alone. */
-static bool rests_on_screen(const compare_answer *a, int surface)
+/* Grains that no scene was run for are not drawn: such a surface has fewer gouges by the screen's word alone, or by
+ * that of study.smallest_radius. */
+static bool rests_on_no_scene(const compare_answer *a, int surface)
 {
-    return a->answer[surface].grains.unbacked > 0;
+    const grain_families *g = &a->answer[surface].grains;
+    return g->unbacked > 0 || (g->n == 0 && g->too_small > 0);
 }
 
 /* Of the entries before k that lead a group: the best that surface k cannot be told from; else k. */
@@ -287,7 +289,7 @@ static int leader_of(const compare_answer *a, const int *order, int k)
 {
     for (int j = 0; j < k; j++) {
         const bool leads = a->entry[j].tied == j + 1;
-        const bool told = share_better(a, order[j], order[k]) >= STUDY_SIGNIFICANT && !rests_on_screen(a, order[j]);
+        const bool told = share_better(a, order[j], order[k]) >= STUDY_SIGNIFICANT && !rests_on_no_scene(a, order[j]);
         if (leads && !told) return j;
     }
     return k;
@@ -302,7 +304,7 @@ static status rank(const case_treatments *treatments, compare_answer *a)
         compare_entry *e = &a->entry[k];
         fill_entry(treatments, a, order[k], e);
         e->better_than_next = k + 1 < a->n ? share_better(a, order[k], order[k + 1]) : NAN;
-        e->significant = e->better_than_next >= STUDY_SIGNIFICANT && !rests_on_screen(a, order[k]);
+        e->significant = e->better_than_next >= STUDY_SIGNIFICANT && !rests_on_no_scene(a, order[k]);
         e->worse_than_best = k > 0 ? share_better(a, order[0], order[k]) : NAN;
         e->tied = leader_of(a, order, k) + 1;
     }

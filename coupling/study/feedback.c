@@ -23,7 +23,7 @@ static int list_jumps(const onset_answer *a, site_jump *jump)
     int taken = 0;
     for (int i = 0; i < a->result.n_sites; i++) {
         if (a->site[i].outcome != SITE_GOUGE) continue;
-        const grain_family *f = &a->grains.family[a->grains.of_site[i]];
+        const grain_family *f = &a->grains.family[study_family_of_site(&a->grains, i)];
         if (isnan(a->site[i].gouged_volume)) continue;
         jump[i] = taken_by(a, f, a->site[i].velocity, a->site[i].gouged_volume);
         taken++;

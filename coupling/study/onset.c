@@ -333,6 +333,7 @@ static void explain(onset_answer *a)
     onset_result *r = &a->result;
     double radius;
     const grain_family *f = study_onset_leading_grain(a, &radius);
+    const bool spent = f && f->surface.reference.outcome == THRESHOLD_UNKNOWN;
     const double none[2] = { 0.0, 0.0 }, *allowance = f ? f->surface.reference.allowance : none;
     if (is_unseen(a))
         say(r,
@@ -352,10 +353,14 @@ static void explain(onset_answer *a)
         say(r, "%s on the case's own grid, but on a shifted one the scene at %g m/s does not decide so",
             f->surface.reference.outcome == THRESHOLD_ABOVE ? "no threshold was found" : "all scenes gouge",
             f->scatter.against);
+    else if (isnan(r->threshold_interval[0]) && isnan(r->threshold_interval[1]))
+        say(r, "no threshold was found: no scene of the search decides");
     else if (isnan(r->threshold_interval[0]))
-        say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1] - allowance[1]);
+        say(r, "threshold at or below %.0f m/s, %s", r->threshold_interval[1] - allowance[1],
+            spent ? "the slowest of study.max_scenes" : "where the search began");
     else
-        say(r, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0] + allowance[0]);
+        say(r, "threshold above %.0f m/s, %s", r->threshold_interval[0] + allowance[0],
+            spent ? "the fastest of study.max_scenes" : "where the search ended");
     if (isfinite(r->scratch_velocity))
         say(r, "; grooves grow from %.0f m/s (%.0f .. %.0f) on", r->scratch_velocity, r->scratch_interval[0],
             r->scratch_interval[1]);

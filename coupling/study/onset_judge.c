@@ -47,7 +47,7 @@ static double probability_at(const surface_size *t, double v)
 
 static const grain_family *family_of(const onset_answer *a, int site)
 {
-    const int k = a->grains.of_site[site];
+    const int k = study_family_of_site(&a->grains, site);
     return k < 0 ? NULL : &a->grains.family[k];
 }
 
@@ -130,7 +130,9 @@ static void judge_sites(onset_answer *a)
         site->threshold_velocity = t.velocity;
         memcpy(site->threshold_interval, t.interval, sizeof t.interval);
         const double scratch_from = f->scratch ? counts_from(&f->scratches, &scratch) : NAN;
-        site->outcome = outcome_at(&t, f->scratch ? &scratch : NULL, scratch_from, site->velocity, near);
+        const site_outcome is = outcome_at(&t, f->scratch ? &scratch : NULL, scratch_from, site->velocity, near);
+        if (site->outcome == SITE_SKIPPED && is != SITE_GOUGE && is != SITE_UNDECIDED) continue;
+        site->outcome = is;
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome == SITE_GOUGE && f->contradicted[0]) site->outcome = SITE_UNDECIDED;
         if (site->outcome != SITE_GOUGE) continue;
@@ -145,9 +147,7 @@ static void judge_sites(onset_answer *a)
 /* Skipped, with no scenes of grains alike: the screen alone speaks for it. */
 static bool is_unbacked(const onset_answer *a, int site)
 {
-    const case_site *grain = &a->grains.c->sites.item[site];
-    return a->site[site].outcome == SITE_SKIPPED &&
-           !study_family_of_grain(&a->grains, grain, grain->height / grain->radius);
+    return a->site[site].outcome == SITE_SKIPPED && !family_of(a, site);
 }
 
 static bool may_gouge_by_screen(const onset_answer *a, int site)
@@ -183,11 +183,10 @@ static double position_of(const onset_answer *a, int site)
 /* That it gouges; NaN: not known, also where whole scenes contradict its threshold. */
 static double site_probability(const onset_answer *a, int site)
 {
-    const case_site *grain = &a->grains.c->sites.item[site];
-    const grain_family *f = study_family_of_grain(&a->grains, grain, grain->height / grain->radius);
+    const grain_family *f = family_of(a, site);
     if (a->site[site].outcome == SITE_NOT_REACHED) return 0.0;
     if (!f) return a->site[site].screen_probability;
-    const surface_size t = study_surface_at(&f->surface, grain->radius);
+    const surface_size t = threshold_of(a, site);
     const double p = probability_at(&t, a->site[site].velocity);
     return f->contradicted[0] && p > 0.0 ? NAN : p;
 }
@@ -255,10 +254,11 @@ static part_reach reach_of(const onset_answer *a, int i, grain_family *f, family
 {
     const threshold_result *r = &study_family_surface(f, judge)->reference;
     const family_scatter *scatter = study_family_scatter(f, judge);
-    const double below = t->velocity - t->interval[0], above = t->interval[1] - t->velocity;
+    double band[2];
+    study_surface_band(study_family_surface(f, judge), t->radius, band);
+    const double below = t->velocity - band[0], above = band[1] - t->velocity;
     if (i == PART_BRACKET)
-        return (part_reach){ { isnan(below) ? NAN : fmax(below - r->allowance[0], 0.0),
-                               isnan(above) ? NAN : fmax(above - r->allowance[1], 0.0) } };
+        return (part_reach){ { isnan(below) ? NAN : fmax(below, 0.0), isnan(above) ? NAN : fmax(above, 0.0) } };
     if (i == PART_CELLS) return (part_reach){ { r->of_cells[0], r->of_cells[1] } };
     double same;
     if (i == PART_GRID)
@@ -373,7 +373,8 @@ static status list_surface(onset_answer *a)
     for (int k = 0; k < a->grains.n; k++)
         for (int j = 0; j < a->grains.family[k].surface.sizes; j++) {
             const grain_family *f = &a->grains.family[k];
-            const surface_size *from = &f->surface.size[j];
+            const surface_size *size = &f->surface.size[j], at = study_surface_at(&f->surface, size->radius),
+                               *from = &at;
             onset_size *to = &a->size[a->result.n_surface++];
             *to = (onset_size){ .family = k + 1,
                                 .radius = from->radius,
@@ -444,7 +445,13 @@ static void warn_of_range(session *s, const onset_answer *a)
 
 static void warn_of_screen(session *s, const onset_answer *a)
 {
-    if (a->grains.unbacked == 0) return;
+    const grain_families *g = &a->grains;
+    if (g->n == 0 && g->too_small > 0)
+        run_session_warn(s,
+                         "%sno scene was run: its grains are smaller than study.smallest_radius = %g um and taken not "
+                         "to gouge, which nothing shows",
+                         g->surface, 1e6 * g->c->study.smallest_radius);
+    if (g->unbacked == 0) return;
     run_session_warn(s,
                      "%s%d sites and populations rest on the screen alone, impact pressure over hardness below "
                      "study.screen_low = %g: no scene was run for their grains (study.screen_low: 0 runs them)",

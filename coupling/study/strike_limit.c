@@ -124,9 +124,12 @@ static void conclude(session *s, const case_study *c, const strike_projectile *p
     if (r->outcome == THRESHOLD_BELOW)
         run_session_warn(s, "the limit velocity lies below study.velocity_low = %g m/s: that %s", c->velocity_low,
                          above);
-    if (r->outcome == THRESHOLD_ABOVE)
+    if (r->outcome == THRESHOLD_ABOVE && is_held(l, p, c->velocity_high))
         run_session_warn(s, "the limit velocity lies above study.velocity_high = %g m/s: nothing up to there %s",
                          c->velocity_high, above);
+    else if (r->outcome == THRESHOLD_ABOVE)
+        run_session_warn(s, "no arrival up to study.velocity_high = %g m/s is decided: take a longer scene (%s)",
+                         c->velocity_high, p->piston ? "scene.end_time" : "strike.travel");
     if (r->outcome == THRESHOLD_UNKNOWN)
         run_session_warn(s, "study.max_scenes = %d did not suffice to find a limit velocity", c->max_scenes);
     if (!r->monotone)

@@ -22,12 +22,12 @@ const gouge_law_draw study_gouge_law_middle = { .in_band = 0.5 };
 
 /* A band without what may move it.  Below the search it gouges from the lowest velocity on; above it
  * the band is open: from the last velocity that is known not to gouge, or never. */
-static void band_at(const grain_family *f, double radius, const double allowance[2], double *low, double *high)
+static void band_at(const grain_family *f, double radius, double *low, double *high)
 {
-    const surface_size at = study_surface_at(&f->surface, radius);
-    const threshold_plan *p = &f->plan.search;
-    *low = isnan(at.interval[0]) ? p->low : at.interval[0] + allowance[0];
-    *high = isnan(at.interval[1]) ? INFINITY : at.interval[1] - allowance[1];
+    double band[2];
+    study_surface_band(&f->surface, radius, band);
+    *low = isnan(band[0]) ? f->plan.search.low : band[0];
+    *high = isnan(band[1]) ? INFINITY : band[1];
     if (*high < *low) *low = *high = 0.5 * (*low + *high);
 }
 
@@ -42,7 +42,7 @@ static void tabulate_thresholds(const grain_family *f, gouge_law *out)
     out->per_ln = last > first ? LAW_SIZES / (last - first) : 0.0;
     for (int i = 0; i <= LAW_SIZES; i++) {
         const double ln_r = out->per_ln > 0.0 ? first + i / out->per_ln : first;
-        band_at(f, exp(ln_r), all, &out->low[i], &out->high[i]);
+        band_at(f, exp(ln_r), &out->low[i], &out->high[i]);
     }
 }
 

@@ -211,7 +211,8 @@ static void meet_sites(lane *l)
     const case_onset *c = l->grains->c;
     for (int i = 0; i < c->sites.n; i++) {
         const case_site *site = &c->sites.item[i];
-        const grain g = { site->position, log(site->radius) + l->ln_factor, l->grains->of_site[i], false };
+        const int family = study_family_of_site(l->grains, i);
+        const grain g = { site->position, log(site->radius) + l->ln_factor, family, false };
         if (g.family >= 0) meet(l, &g);
     }
 }
@@ -669,7 +670,7 @@ double study_mc_expected(const grain_families *grains, double length)
         sum = 0.0;
         for (int i = 0; i < grains->c->sites.n; i++) {
             const case_site *site = &grains->c->sites.item[i];
-            const int family = grains->of_site[i];
+            const int family = study_family_of_site(grains, i);
             sum += family >= 0 &&
                    velocity_at(l, site->position) >=
                        study_gouge_law_threshold(&l->law[family], log(site->radius), study_gouge_law_middle);

@@ -165,6 +165,14 @@ const grain_family *study_family_of_grain(const grain_families *f, const case_si
     return NULL;
 }
 
+int study_family_of_site(const grain_families *f, int site)
+{
+    const case_site *grain = &f->c->sites.item[site];
+    if (f->of_site[site] >= 0 || !f->flown->site[site].reached) return f->of_site[site];
+    const grain_family *alike = study_family_of_grain(f, grain, grain->height / grain->radius);
+    return alike ? (int)(alike - f->family) : -1;
+}
+
 static void note_unbacked(grain_families *f, const screen *hit)
 {
     f->unbacked++;
@@ -174,12 +182,10 @@ static void note_unbacked(grain_families *f, const screen *hit)
 static status find_unbacked_sites(grain_families *f, const case_surface *surface)
 {
     for (int i = 0; i < f->c->sites.n; i++) {
-        const case_site *grain = &f->c->sites.item[i];
         const site_state *site = &f->flown->site[i];
         screen hit;
-        if (!site->reached || f->of_site[i] >= 0) continue;
-        if (study_family_of_grain(f, grain, grain->height / grain->radius)) continue;
-        TRY(gouge_screen_impact(surface, grain->height, site->velocity, &hit));
+        if (!site->reached || study_family_of_site(f, i) >= 0) continue;
+        TRY(gouge_screen_impact(surface, f->c->sites.item[i].height, site->velocity, &hit));
         note_unbacked(f, &hit);
     }
     return status_ok();

@@ -91,6 +91,9 @@ status study_families_search(session *s, grain_families *const *f, int n);
 /* The family that this grain belongs to, whether the screen skips it or not; NULL: no grain alike has scenes. */
 const grain_family *study_family_of_grain(const grain_families *f, const case_site *grain, double aspect);
 
+/* That of a site, whether the screen skips it or not: an index, -1: no grain alike has scenes, or it is not reached. */
+int study_family_of_site(const grain_families *f, int site);
+
 /* Its family in another case of the same grains; NULL: none of them is fast enough there (screen). */
 grain_family *study_family_alike(const grain_families *in, const grain_family *f);
 

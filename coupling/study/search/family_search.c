@@ -32,7 +32,7 @@ typedef struct {
     int number;               /* of the family, from 1 */
     family_judge judge;       /* whose search is under way */
     surface_search surface[FAMILY_JUDGES];
-    bool spent; /* the first search left no scene to the second: that one takes those of the first alone */
+    int lent; /* scenes that the second search has beyond study.max_scenes until it finds as many of the first's */
     bool in_craters;
     int n_craters; /* not known yet */
     family_wanted crater[TOGETHER];
@@ -166,21 +166,39 @@ static status begin_search(const grain_families *of, int k, family_search *out)
     return study_surface_begin(&of->family[k].plan, &out->surface[JUDGE_OF_GOUGE]);
 }
 
-/* What study.max_scenes leaves to the second search: scenes that it finds computed are given back (go_on). */
+/* The first search has left no scene to the second: that one says what those of the first do. */
+static status conclude_scratches(family_search *s)
+{
+    const grain_family *f = s->family;
+    surface_sample known[THRESHOLD_MAX_SAMPLES];
+    int n = 0;
+    for (int i = 0; i < f->n_scenes; i++) {
+        const family_scene *e = &f->scene[i];
+        if (e->whole) continue;
+        const threshold_sample is = study_family_sample(s->of->c, JUDGE_OF_SCRATCH, &e->record->entry);
+        if (isfinite(is.excess)) known[n++] = (surface_sample){ e->radius, is };
+    }
+    return study_surface_conclude(&f->scratch_plan, known, n, &s->surface[JUDGE_OF_SCRATCH]);
+}
+
+/* What study.max_scenes leaves to the second search: scenes of the first that it finds are given back (go_on).  It
+ * begins with the two that the first began with, so those are lent where fewer are left. */
 static status begin_scratches(family_search *s)
 {
     surface_plan *p = &s->family->scratch_plan;
-    const int all = s->family->plan.search.max_scenes, used = s->surface[JUDGE_OF_GOUGE].result.samples;
-    s->spent = used >= all;
-    p->search.max_scenes = s->spent ? 1 : all - used; /* one, to ask for those of the first */
+    const int left = s->family->plan.search.max_scenes - s->surface[JUDGE_OF_GOUGE].result.samples;
     s->judge = JUDGE_OF_SCRATCH;
+    s->lent = left < TOGETHER ? TOGETHER - left : 0;
+    p->search.max_scenes = left + s->lent;
+    if (left <= 0) return conclude_scratches(s);
     return study_surface_begin(p, &s->surface[JUDGE_OF_SCRATCH]);
 }
 
 /* The search under way has come to its end: on to the next one, or to the craters. */
 static status next_stage(family_search *s)
 {
-    if (s->judge == JUDGE_OF_GOUGE && s->family->scratch) return begin_scratches(s);
+    if (s->judge == JUDGE_OF_GOUGE && s->family->scratch) TRY(begin_scratches(s));
+    if (!s->surface[s->judge].over) return status_ok();
     ask_for_craters(s);
     return status_ok();
 }
@@ -346,13 +364,6 @@ static bool keep(grain_family *f, const family_wanted *w, const scene_record *re
     return true;
 }
 
-/* The search of scratches asks for a scene that is not known, and has none left. */
-static status end_scratches(family_search *s)
-{
-    study_surface_stop(&s->surface[JUDGE_OF_SCRATCH]);
-    return next_stage(s);
-}
-
 /* What gouges grows: where the second search saw no groove grow, it does so at the latest where gouges begin. */
 static void bound_scratches(grain_family *f)
 {
@@ -385,12 +396,9 @@ static status go_on(session *s, family_search *search, scene_query needed[TOGETH
             }
             const threshold_sample is = study_family_sample(search->of->c, search->judge, &record->entry);
             const bool fresh = keep(search->family, &wanted[i], record);
-            if (!fresh && search->judge == JUDGE_OF_SCRATCH) search->family->scratch_plan.search.max_scenes++;
+            if (!fresh && search->judge == JUDGE_OF_SCRATCH && search->lent-- <= 0)
+                search->family->scratch_plan.search.max_scenes++;
             TRY(tell(search, &wanted[i], &is));
-        }
-        if (*n > 0 && search->spent && !search->in_craters) {
-            TRY(end_scratches(search));
-            *n = 0;
         }
     } while (*n < asked);
     if (*n > 0) return status_ok();

@@ -239,6 +239,18 @@ static void check_sizes(surface_result *r)
         }
 }
 
+/* From an end of a size's band to where its own scenes decide; the end where another size's scene stands there, or none
+ * of its own decides. */
+static double decided_end(const surface_search *s, int k, const threshold_sample *end, double velocity)
+{
+    threshold_sample own[THRESHOLD_MAX_SAMPLES];
+    int n = 0;
+    for (int i = 0; i < s->result.samples && end; i++)
+        if (s->result.sample[i].radius == s->plan->size[k]) own[n++] = s->result.sample[i].is;
+    const double decided = end ? study_threshold_decided_end(&s->plan->search, own, n, end) : NAN;
+    return isnan(decided) ? velocity : decided;
+}
+
 static surface_size answer_of(surface_search *s, int k)
 {
     const surface_plan *p = s->plan;
@@ -247,8 +259,8 @@ static surface_size answer_of(surface_search *s, int k)
     surface_size a = { .radius = p->size[k], .weight = p->weight[k], .velocity = NAN, .interval = { NAN, NAN } };
     const double *allowance = r->reference.allowance;
     for (int i = 0; i < r->samples; i++) a.scenes += r->sample[i].radius == a.radius;
-    if (b.low_known) a.interval[0] = b.low - allowance[0];
-    if (b.high_known) a.interval[1] = b.high + allowance[1];
+    if (b.low_known) a.interval[0] = decided_end(s, k, b.own_low, b.low) - allowance[0];
+    if (b.high_known) a.interval[1] = decided_end(s, k, b.own_high, b.high) + allowance[1];
     if (b.low_known && b.high_known) {
         a.velocity = crossing(&b);
         if (b.low >= b.high) {
@@ -399,12 +411,7 @@ void study_surface_stop(surface_search *s)
     conclude(s);
 }
 
-double study_surface_end_in_cells(const surface_result *s, const surface_size *of)
-{
-    return of->interval[1] - (s->reference.allowance[1] - s->reference.allowance[0]);
-}
-
-surface_size study_surface_at(const surface_result *s, double radius)
+static surface_size size_at(const surface_result *s, double radius)
 {
     const surface_size *first = &s->size[0], *last = &s->size[s->sizes - 1];
     if (radius <= first->radius) return *first;
@@ -417,5 +424,41 @@ surface_size study_surface_at(const surface_result *s, double radius)
     surface_size at = { .radius = radius };
     at.velocity = a->velocity + f * (b->velocity - a->velocity);
     for (int e = 0; e < 2; e++) at.interval[e] = a->interval[e] + f * (b->interval[e] - a->interval[e]);
+    return at;
+}
+
+status study_surface_conclude(const surface_plan *plan, const surface_sample *list, int n, surface_search *out)
+{
+    TRY(study_surface_begin(plan, out));
+    surface_result *r = &out->result;
+    threshold_sample reference[THRESHOLD_MAX_SAMPLES];
+    int own = 0;
+    for (int i = 0; i < n && own < THRESHOLD_MAX_SAMPLES; i++)
+        if (list[i].radius == plan->size[plan->reference]) reference[own++] = list[i].is;
+    TRY(study_threshold_conclude(&plan->search, reference, own, &out->reference));
+    take_reference(out);
+    take_answer_of_reference(out);
+    for (int i = 0; i < n && r->samples < THRESHOLD_MAX_SAMPLES; i++)
+        if (list[i].radius != plan->size[plan->reference]) r->sample[r->samples++] = list[i];
+    conclude(out);
+    return status_ok();
+}
+
+void study_surface_band(const surface_result *s, double radius, double ends[2])
+{
+    const surface_size at = size_at(s, radius);
+    ends[0] = at.interval[0] + s->reference.allowance[0];
+    ends[1] = at.interval[1] - s->reference.allowance[1];
+}
+
+double study_surface_end_in_cells(const surface_result *s, const surface_size *of)
+{
+    return of->interval[1] - (s->reference.allowance[1] - s->reference.allowance[0]);
+}
+
+surface_size study_surface_at(const surface_result *s, double radius)
+{
+    surface_size at = size_at(s, radius);
+    if (at.interval[0] < 0.0) at.interval[0] = 0.0;
     return at;
 }

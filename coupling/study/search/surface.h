@@ -41,7 +41,7 @@ typedef struct {
 typedef struct {
     double radius, weight;
     double velocity;    /* [m/s]; NaN: outside of the search */
-    double interval[2]; /* an end that is not known is NaN [m/s] */
+    double interval[2]; /* an end that is not known is NaN; may begin below 0 (study_surface_at) [m/s] */
     int scenes;         /* of this very size */
 } surface_size;
 
@@ -80,11 +80,17 @@ status study_surface_tell(surface_search *s, const surface_sample *answer);
 /* Ends the search with what it has been told; the open question is dropped. */
 void study_surface_stop(surface_search *s);
 
+/* A search that is over: what these n scenes say, without another one. */
+status study_surface_conclude(const surface_plan *plan, const surface_sample *list, int n, surface_search *out);
+
+/* The interval at any size without what may move it (reference.allowance); an end that is not known is NaN [m/s]. */
+void study_surface_band(const surface_result *s, double radius, double ends[2]);
+
 /* The upper end of a size's interval as it is for cells of the search's size: without what finer ones may raise the
  * threshold by, beyond what they may lower it by [m/s]. */
 double study_surface_end_in_cells(const surface_result *s, const surface_size *of);
 
-/* At any size: linear in ln r between sizes, that of the last size beyond the ends. */
+/* At any size: linear in ln r between sizes, that of the last size beyond the ends; no interval begins below 0. */
 surface_size study_surface_at(const surface_result *s, double radius);
 
 #endif

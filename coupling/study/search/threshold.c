@@ -210,32 +210,42 @@ static double crossing(const threshold_sample *a, const threshold_sample *b, dou
     return share > 0.0 && share <= 1.0 ? a->velocity + share * (b->velocity - a->velocity) : a->velocity;
 }
 
-/* The next scene of the stage and of the same side, away from the bracket; NULL: none. */
-static const threshold_sample *further_out(const threshold_search *s, const threshold_sample *from)
+/* The next scene of the same cells and of the same side, away from the bracket; NULL: none. */
+static const threshold_sample *further_out(const threshold_sample *list, int n, const threshold_sample *from)
 {
     const bool upper = study_threshold_is_upper(from);
     const threshold_sample *next = NULL;
-    for (int i = 0; i < s->result.samples; i++) {
-        const threshold_sample *a = &s->result.sample[i];
+    for (int i = 0; i < n; i++) {
+        const threshold_sample *a = &list[i];
         const double way = upper ? a->velocity - from->velocity : from->velocity - a->velocity;
-        if (a->cells_per_radius != s->cells || study_threshold_is_upper(a) != upper || !(way > 0.0)) continue;
+        if (a->cells_per_radius != from->cells_per_radius || study_threshold_is_upper(a) != upper || !(way > 0.0))
+            continue;
         if (!next || way < fabs(next->velocity - from->velocity)) next = a;
     }
     return next;
 }
 
-/* From an end of the bracket outwards to the first decided scene of its side; where the scatter of the excess is known,
- * only to where the line from the last undecided one leaves it. */
-static double decided_end(const threshold_search *s, const threshold_sample *end)
+double study_threshold_decided_end(const threshold_plan *p, const threshold_sample *list, int n,
+                                   const threshold_sample *end)
 {
     const threshold_sample *decided = end, *undecided = end;
-    const double scatter = study_threshold_is_upper(end) ? s->plan->scatter : -s->plan->scatter;
+    const double scatter = study_threshold_is_upper(end) ? p->scatter : -p->scatter;
     while (decided && decided->class == DAMAGE_UNDECIDED) {
         undecided = decided;
-        decided = further_out(s, decided);
+        decided = further_out(list, n, decided);
     }
-    if (!decided) return end->velocity;
+    if (!decided) return NAN;
     return decided != end && scatter != 0.0 ? crossing(decided, undecided, scatter) : decided->velocity;
+}
+
+static double decided_end(const threshold_search *s, const threshold_sample *end)
+{
+    return study_threshold_decided_end(s->plan, s->result.sample, s->result.samples, end);
+}
+
+static double or_else(double known, double other)
+{
+    return isnan(known) ? other : known;
 }
 
 static void warn(threshold_result *r, const char *format, ...)
@@ -286,12 +296,14 @@ static void one_sided(threshold_search *s, const threshold_bracket *b)
     threshold_result *r = &s->result;
     const double grid_low = on_grid(s, s->plan->low), grid_high = on_grid(s, s->plan->high);
     r->outcome = THRESHOLD_UNKNOWN;
-    if (b->has_hi) r->bracket[1] = b->hi.velocity;
-    if (b->has_lo) r->bracket[0] = b->lo.velocity;
-    memcpy(r->interval, r->bracket, sizeof r->interval);
+    if (b->has_hi) r->bracket[1] = b->hi.velocity, r->interval[1] = decided_end(s, &b->hi);
+    if (b->has_lo) r->bracket[0] = b->lo.velocity, r->interval[0] = decided_end(s, &b->lo);
     allow(r, s->plan, b->has_hi ? b->hi.velocity : b->has_lo ? b->lo.velocity : 0.0, 0.0);
     if (b->has_hi && b->hi.velocity == grid_low) r->outcome = THRESHOLD_BELOW;
     if (b->has_lo && b->lo.velocity == grid_high) r->outcome = THRESHOLD_ABOVE;
+    if (r->outcome != THRESHOLD_UNKNOWN) return;
+    warn(r, "study.max_scenes = %d spent before a scene %s was seen", s->plan->max_scenes,
+         b->has_hi ? "below the threshold" : "above the threshold");
 }
 
 static void conclude(threshold_search *s, const threshold_bracket *b)
@@ -305,8 +317,8 @@ static void conclude(threshold_search *s, const threshold_bracket *b)
     r->velocity = root(b);
     r->bracket[0] = b->lo.velocity;
     r->bracket[1] = b->hi.velocity;
-    r->interval[0] = decided_end(s, &b->lo);
-    r->interval[1] = decided_end(s, &b->hi);
+    r->interval[0] = or_else(decided_end(s, &b->lo), b->lo.velocity);
+    r->interval[1] = or_else(decided_end(s, &b->hi), b->hi.velocity);
     check_monotone(r, s->plan->coarse);
     if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
     allow(r, s->plan, r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));
@@ -526,6 +538,32 @@ status study_threshold_tell(threshold_search *s, const threshold_sample *answer)
     s->asked[i] = *answer;
     s->told[i] = true;
     go_on(s);
+    return status_ok();
+}
+
+/* The lowest change of side of all scenes of these cells. */
+static threshold_bracket bracket_in(const threshold_result *r, double cells)
+{
+    threshold_bracket b = { .has_lo = false };
+    for (int side = 1; side >= 0; side--) /* the upper one first */
+        for (int i = 0; i < r->samples; i++) {
+            const threshold_sample *a = &r->sample[i];
+            if (a->cells_per_radius != cells || study_threshold_is_upper(a) != side) continue;
+            if (side ? !b.has_hi || a->velocity < b.hi.velocity
+                     : (!b.has_hi || a->velocity < b.hi.velocity) && (!b.has_lo || a->velocity > b.lo.velocity))
+                take(&b, a);
+        }
+    return b;
+}
+
+status study_threshold_conclude(const threshold_plan *plan, const threshold_sample *list, int n, threshold_search *out)
+{
+    TRY(study_threshold_begin(plan, out));
+    threshold_result *r = &out->result;
+    for (int i = 0; i < n && r->samples < THRESHOLD_MAX_SAMPLES; i++) r->sample[r->samples++] = list[i];
+    out->coarse = bracket_in(r, plan->coarse);
+    if (plan->fine != plan->coarse) out->refined = bracket_in(r, plan->fine);
+    study_threshold_stop(out);
     return status_ok();
 }
 

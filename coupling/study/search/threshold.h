@@ -138,6 +138,14 @@ int study_threshold_ask(const threshold_search *s, threshold_wanted out[THRESHOL
 status study_threshold_tell(threshold_search *s, const threshold_sample *answer);
 /* Ends the search with what it has been told, as if max_scenes were spent; the open question is dropped. */
 void study_threshold_stop(threshold_search *s);
+/* A search that is over: what these n scenes say, without another one. */
+status study_threshold_conclude(const threshold_plan *plan, const threshold_sample *list, int n, threshold_search *out);
+
+/* From an end of a bracket outwards to the first decided scene of its side and cells among these n; where the scatter
+ * of the excess is known, only to where the line from the last undecided one leaves it.  NAN: none of them decides
+ * [m/s]. */
+double study_threshold_decided_end(const threshold_plan *plan, const threshold_sample *list, int n,
+                                   const threshold_sample *end);
 
 /* Does a sample speak for a gouge?  An undecided one by its excess. */
 bool study_threshold_is_upper(const threshold_sample *s);

@@ -18,9 +18,13 @@ void study_uncertain_free(uncertain_inputs *u)
 
 /* ---- the inputs ---- */
 
+/* The rail's metal, a skin of it that a treatment has hardened too. */
 static void raise_strength(case_onset *c, double factor)
 {
-    c->impact.rail.yield_scale *= factor;
+    case_rail *rail = &c->impact.rail;
+    rail->yield_scale *= factor;
+    for (int k = 0; k < rail->layers.n; k++)
+        if (strcmp(rail->layers.item[k].material, rail->material) == 0) rail->layers.item[k].yield_scale *= factor;
 }
 
 static void raise_armature(case_onset *c, double factor)
@@ -120,11 +124,11 @@ double study_uncertain_stated(const case_interval_part *part, grain_family *f, f
     return share * place_of(&study_family_surface(f, judge)->reference);
 }
 
-/* An end that is not known stays so. */
+/* An end that is not known stays so; one below 0 is cut where it is read (study_surface_at). */
 static void move_threshold(double *velocity, double interval[2], double more, const double wider[2])
 {
     *velocity += more;
-    if (!isnan(interval[0])) interval[0] = fmax(interval[0] + more - wider[0], 0);
+    interval[0] += more - wider[0];
     interval[1] += more + wider[1];
 }
 
@@ -194,20 +198,22 @@ static void move_upper_ends(surface_result *s, double by)
     threshold_result *r = &s->reference;
     const double others = r->allowance[1] * r->allowance[1] - r->of_cells[1] * r->of_cells[1];
     r->interval[1] += by;
-    r->allowance[1] += by;
+    r->allowance[1] = fmax(r->allowance[1] + by, 0.0);
     r->of_cells[1] = sqrt(fmax(r->allowance[1] * r->allowance[1] - others, 0.0));
     for (int k = 0; k < s->sizes; k++) s->size[k].interval[1] += by;
 }
 
 /* What gouges grows.  Where the scratch's threshold comes out above the gouge's, it is the gouge's, and its interval
  * ends with that at the latest.  Without growth nothing gouges, whatever its shape, and cells add to growth: as far up
- * as finer ones may raise the gouge's threshold they may raise the scratch's. */
+ * as finer ones may raise the gouge's threshold they may raise the scratch's.  Where no groove was seen to grow, the
+ * scratch's interval ends with the gouge's. */
 static void keep_order(grain_family *f)
 {
     const threshold_result *gouge = &f->surface.reference, *scratch = &f->scratches.reference;
     if (scratch->velocity > gouge->velocity) move_scratches(&f->scratches, gouge->velocity - scratch->velocity);
     const double more = gouge->interval[1] - scratch->interval[1];
-    if (more < 0.0 || (more > 0.0 && gouge->allowance[1] > gouge->allowance[0])) move_upper_ends(&f->scratches, more);
+    const bool follows = isnan(scratch->bracket[1]) || gouge->allowance[1] > gouge->allowance[0];
+    if (more < 0.0 || (more > 0.0 && follows)) move_upper_ends(&f->scratches, more);
 }
 
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
