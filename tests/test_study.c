@@ -435,6 +435,47 @@ static void test_scatter(void **state)
     assert_true(inside > 10);
 }
 
+/* Where one side alone was seen, the interval begins at a decided scene too, or has no end. */
+static void test_one_side_undecided(void **state)
+{
+    (void)state;
+    threshold_plan plan = usual();
+    plan.scatter = 0.2, plan.coarse = plan.fine;
+    function f = plain(line, 2010.0); /* at 2000 m/s an excess of -0.05 */
+    f.doubt = plan.scatter;
+    const threshold_result r = search(&f, &plan);
+    assert_int_equal(r.outcome, THRESHOLD_ABOVE);
+    assert_true(fabs(r.interval[0] - 1970.0) < 1e-9 && isnan(r.interval[1])); /* where the line leaves the scatter */
+    f = plain(line, 2010.0);
+    f.doubt = 10.0;
+    const threshold_result open = search(&f, &plan);
+    assert_true(open.outcome == THRESHOLD_ABOVE && isnan(open.interval[0]) && open.bracket[0] == 2000.0);
+    f = plain(line, 2010.0);
+    plan.max_scenes = 2; /* says that it was short of scenes */
+    const threshold_result few = search(&f, &plan);
+    assert_true(few.outcome == THRESHOLD_UNKNOWN && strstr(few.warning, "study.max_scenes = 2 spent"));
+}
+
+/* Scenes that are there, whatever order: the lowest change of side. */
+static void test_concluded(void **state)
+{
+    (void)state;
+    threshold_plan plan = usual();
+    plan.coarse = plan.fine;
+    static const threshold_sample known[] = { { 1950.0, 3.0, 1.0, DAMAGE_GOUGE },
+                                              { 875.0, 3.0, -1.0, DAMAGE_SCRATCH },
+                                              { 2000.0, 3.0, 1.5, DAMAGE_GOUGE },
+                                              { 1625.0, 3.0, -0.5, DAMAGE_SCRATCH } };
+    threshold_search s;
+    OK(study_threshold_conclude(&plan, known, 4, &s));
+    threshold_wanted wanted[THRESHOLD_TOGETHER];
+    assert_int_equal(study_threshold_ask(&s, wanted), 0);
+    assert_true(s.result.outcome == THRESHOLD_FOUND && s.result.samples == 4);
+    assert_true(s.result.bracket[0] == 1625.0 && s.result.bracket[1] == 1950.0);
+    OK(study_threshold_conclude(&plan, known, 1, &s));
+    assert_true(isnan(s.result.velocity) && s.result.bracket[1] == 1950.0 && isnan(s.result.bracket[0]));
+}
+
 static void test_budget(void **state)
 {
     (void)state;
@@ -924,6 +965,27 @@ static void test_hard_film(void **state)
     case_free(c);
 }
 
+/* Of grains alike some are too slow for scenes by a screen that was set too high: what the others' scenes say counts for
+ * them too. */
+static void test_screened_with_others(void **state)
+{
+    (void)state;
+    int gouges[2], skipped = 0;
+    double onset[2], expected[2];
+    for (int k = 0; k < 2; k++) {
+        breech_case *c = changed_case((const char *const[]){ k ? "study.screen_low=13" : "study.screen_low=3", NULL });
+        onset_answer a;
+        OK(study(c, "others", FORCE, &a));
+        gouges[k] = a.result.gouges, onset[k] = a.result.onset_position, expected[k] = a.result.expected_gouges;
+        for (int i = 0; k && i < a.result.n_sites; i++) skipped += a.grains.of_site[i] < 0;
+        study_onset_answer_free(&a);
+        case_free(c);
+    }
+    print_message("%d of the sites without scenes, %d gouge\n", skipped, gouges[1]);
+    assert_true(skipped > 0 && gouges[0] > 1);
+    assert_true(gouges[1] == gouges[0] && onset[1] == onset[0] && expected[1] == expected[0]);
+}
+
 /* Grooves grow from 1430 m/s on and are tear-drops from 1650 m/s on: both velocities are found, the second search takes
  * the scenes of the first, and the sites between the two are scratches. */
 static void test_two_speeds(void **state)
@@ -1177,6 +1239,8 @@ int main(void)
         cmocka_unit_test(test_dip),
         cmocka_unit_test(test_undecided),
         cmocka_unit_test(test_scatter),
+        cmocka_unit_test(test_one_side_undecided),
+        cmocka_unit_test(test_concluded),
         cmocka_unit_test(test_budget),
         cmocka_unit_test(test_driven),
         cmocka_unit_test(test_errors),
@@ -1187,6 +1251,7 @@ int main(void)
         cmocka_unit_test(test_moves),
         cmocka_unit_test(test_screened),
         cmocka_unit_test(test_hard_film),
+        cmocka_unit_test(test_screened_with_others),
         cmocka_unit_test(test_contradicted),
         cmocka_unit_test(test_two_speeds),
         cmocka_unit_test(test_finer_cells),

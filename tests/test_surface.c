@@ -150,6 +150,34 @@ static void test_bands(void **state)
     }
 }
 
+/* What scenes that are there say of all sizes; a size's interval ends where its own scenes decide, as the reference's
+ * does; one that reaches below 0 is cut where it is read, its band is not. */
+static void test_known(void **state)
+{
+    (void)state;
+    surface_plan p = plan_of(4, 0.05);
+    p.search.coarse = p.search.fine, p.search.scatter = 0.2;
+    const double reference = p.size[p.reference], small = p.size[p.reference - 1];
+    const surface_sample known[] = {
+        { small, { 1500.0, 3.0, -0.1, DAMAGE_UNDECIDED } }, { reference, { 1410.0, 3.0, -1.0, DAMAGE_SCRATCH } },
+        { small, { 1425.0, 3.0, -1.0, DAMAGE_SCRATCH } },   { small, { 1520.0, 3.0, 0.1, DAMAGE_UNDECIDED } },
+        { reference, { 1490.0, 3.0, 1.0, DAMAGE_GOUGE } },  { small, { 1600.0, 3.0, 1.0, DAMAGE_GOUGE } }
+    };
+    surface_search s;
+    OK(study_surface_conclude(&p, known, 6, &s));
+    surface_wanted wanted[THRESHOLD_TOGETHER];
+    assert_true(study_surface_ask(&s, wanted) == 0 && s.result.samples == 6);
+    const surface_size at = study_surface_at(&s.result, small);
+    assert_true(s.result.reference.bracket[0] == 1410.0 && fabs(at.velocity - 1510.0) < 1e-9);
+    assert_true(fabs(at.interval[0] - (1500.0 - 75.0 / 9.0)) < 1e-9);
+    assert_true(fabs(at.interval[1] - (1520.0 + 80.0 / 9.0)) < 1e-9);
+    for (int k = 0; k < s.result.sizes; k++) s.result.size[k].interval[0] = -100.0;
+    s.result.reference.allowance[0] = 1600.0;
+    double ends[2];
+    study_surface_band(&s.result, small, ends);
+    assert_true(study_surface_at(&s.result, small).interval[0] == 0.0 && ends[0] == 1500.0);
+}
+
 /* The fine stage of a search of its own at every size would take more. */
 static void test_fewer_than_one_by_one(void **state)
 {
@@ -296,6 +324,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bands),
+        cmocka_unit_test(test_known),
         cmocka_unit_test(test_fewer_than_one_by_one),
         cmocka_unit_test(test_knee),
         cmocka_unit_test(test_slow_barrel),
