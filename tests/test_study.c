@@ -465,12 +465,13 @@ static void test_concluded(void **state)
     static const threshold_sample known[] = { { 1950.0, 3.0, 1.0, DAMAGE_GOUGE },
                                               { 875.0, 3.0, -1.0, DAMAGE_SCRATCH },
                                               { 2000.0, 3.0, 1.5, DAMAGE_GOUGE },
-                                              { 1625.0, 3.0, -0.5, DAMAGE_SCRATCH } };
+                                              { 1625.0, 3.0, -0.5, DAMAGE_SCRATCH },
+                                              { 1975.0, 3.0, -0.2, DAMAGE_SCRATCH } }; /* turns back */
     threshold_search s;
-    OK(study_threshold_conclude(&plan, known, 4, &s));
+    OK(study_threshold_conclude(&plan, known, 5, &s));
     threshold_wanted wanted[THRESHOLD_TOGETHER];
     assert_int_equal(study_threshold_ask(&s, wanted), 0);
-    assert_true(s.result.outcome == THRESHOLD_FOUND && s.result.samples == 4);
+    assert_true(s.result.outcome == THRESHOLD_FOUND && s.result.samples == 5 && !s.result.monotone);
     assert_true(s.result.bracket[0] == 1625.0 && s.result.bracket[1] == 1950.0);
     OK(study_threshold_conclude(&plan, known, 1, &s));
     assert_true(isnan(s.result.velocity) && s.result.bracket[1] == 1950.0 && isnan(s.result.bracket[0]));
