@@ -231,6 +231,10 @@ static void test_refused(void **state)
     refused(CASE " --set life.friction=0.3", "life.friction is that of load: wheel");
     refused(CASES "/rail_fatigue --set life.load=armature", "section `barrel` is missing");
     refused(CASE " --set armature.contact_length='3 m'", "must be shorter than the armature's way");
+    refused(CASE " --set study.shots=20", "melts at 1356 K");
+    assert_int_equal(run("check " CASE " --set study.shots=20"), 2); /* by the same test */
+    assert_true(contains("err.txt", "--set study.shots=20: study.shots: shot "));
+    assert_int_equal(run("check " CASE " --set study.shots=20 --set study.heat_kept=0.5"), 0);
 }
 
 static const cJSON *place_of(const cJSON *s, int k)

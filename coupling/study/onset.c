@@ -5,6 +5,7 @@
 #include "coupling/study/feedback.h"
 #include "coupling/study/sampling/population.h"
 #include "coupling/study/sensitivity.h"
+#include "coupling/study/warm_rail.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -412,7 +413,7 @@ status study_onset_possible(const case_onset *c)
     host_progress_open(&silent.progress, stderr, true);
     host_timing_open(&silent.timing);
     status s = study_onset_begin(&silent, c, "", false, &a);
-    if (s.code == STATUS_OK && follows) s = study_repeated_possible(&silent, &a.grains, &a.shot);
+    if (s.code == STATUS_OK && follows) s = study_warm_rail_follows(&silent, c, a.grains.flown);
     study_onset_answer_free(&a);
     return s.code == STATUS_BAD_INPUT ? s : status_ok(); /* the run tells what else may happen */
 }

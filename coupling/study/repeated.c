@@ -15,8 +15,7 @@
  * layers than 1 um a case does not have. [K, m, m] */
 static const double LEAST[MC_CHANGES] = { [MC_WARMTH] = 10.0, [MC_WEAR] = 1e-6, [MC_METAL] = 1e-6 };
 static const char *const NAMES[MC_CHANGES] = { [MC_WARMTH] = "warm", [MC_WEAR] = "worn", [MC_METAL] = "plated" };
-static const double RISE_STEP = 25.0;   /* so that scenes are shared [K] */
-static const double NEAR_MELTING = 0.8; /* of the rise to melting, by the first shot alone */
+static const double RISE_STEP = 25.0; /* so that scenes are shared [K] */
 
 static void changed_free(changed_rail *r)
 {
@@ -115,24 +114,6 @@ static status fly_all(session *s, const grain_families *first, const shot_record
     status done = status_ok();
     while (done.code == STATUS_OK && f->warm.number < out->shots) done = fly(s, f, out);
     free(f);
-    return done;
-}
-
-/* Would the rail come near melting if every shot left what the first one leaves? */
-static bool may_melt(const case_onset *c, const double left[CIRCUIT_SHOT_PIECES])
-{
-    double rise = 0.0, most = 0.0;
-    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) most = fmax(most, left[k]);
-    for (int n = 1; n < c->study.shots; n++) rise = c->study.heat_kept * (rise + most);
-    return rise > NEAR_MELTING * study_warm_rail_melting_rise(c);
-}
-
-status study_repeated_possible(session *s, const grain_families *first, const shot_record *flight)
-{
-    repeated_rail rail;
-    if (first->c->study.shots < 2 || !may_melt(first->c, first->flown->rail_rise)) return status_ok();
-    const status done = study_repeated_fly(s, first, flight, &rail);
-    study_repeated_free(&rail);
     return done;
 }
 

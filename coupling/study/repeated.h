@@ -42,8 +42,6 @@ typedef struct {
 /* The flights.  *out needs study_repeated_free even on error, before `first` goes.  STATUS_BAD_INPUT: the rail would
  * melt. */
 status study_repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out);
-/* STATUS_BAD_INPUT where it would say so; it flies further shots only where the first one makes that likely. */
-status study_repeated_possible(session *s, const grain_families *first, const shot_record *flight);
 /* After the first shot's search: those of what further shots find, as far as any of them can meet it.  REPEATED_RAILS
  * at most are put into `wanted`, *n of them, for study_families_search; they are borrowed from *out, which must stay
  * where it is. */

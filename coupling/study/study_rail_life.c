@@ -4,6 +4,7 @@
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
 #include "coupling/study/rail_life.h"
+#include "coupling/study/warm_rail.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -90,7 +91,8 @@ static bool is_armature(const case_inputs *in)
 static status possible(const study_case *of)
 {
     TRY(study_possible(of->in, CASE_FOR_SHOT, NULL));
-    return study_rail_life_possible(&of->in->onset, &of->in->life, metal_of(of->in));
+    TRY(study_rail_life_possible(&of->in->onset, &of->in->life, metal_of(of->in)));
+    return study_warm_rail_possible(&of->in->onset);
 }
 
 /* Where it presses hardest. */

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double SAME_FLIGHT = 1.0; /* of the rails' mean temperature [K] */
+static const double SAME_FLIGHT = 1.0;  /* of the rails' mean temperature [K] */
+static const double NEAR_MELTING = 0.8; /* of the rise to melting, by the first shot alone */
 
 static double mean_of(const double rise[CIRCUIT_SHOT_PIECES])
 {
@@ -63,4 +64,42 @@ status study_warm_rail_shoot(session *s, warm_rail *w, bool *is_flown, shot_outc
         gouge_shot_outcome_free(out);
     }
     return done;
+}
+
+/* Would the rail come near melting if every shot left what the first one leaves? */
+static bool may_melt(const case_onset *c, const double left[CIRCUIT_SHOT_PIECES])
+{
+    double rise = 0.0, most = 0.0;
+    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) most = fmax(most, left[k]);
+    for (int n = 1; n < c->study.shots; n++) rise = c->study.heat_kept * (rise + most);
+    return rise > NEAR_MELTING * study_warm_rail_melting_rise(c);
+}
+
+status study_warm_rail_follows(session *s, const case_onset *c, const shot_outcome *flown)
+{
+    if (c->study.shots < 2 || !may_melt(c, flown->rail_rise)) return status_ok();
+    warm_rail w = study_warm_rail_begin(c, flown);
+    while (w.number < c->study.shots) {
+        bool is_flown;
+        shot_outcome out;
+        shot_record record;
+        TRY(study_warm_rail_shoot(s, &w, &is_flown, &out, &record));
+        if (is_flown) gouge_shot_outcome_free(&out);
+    }
+    return status_ok();
+}
+
+status study_warm_rail_possible(const case_onset *c)
+{
+    if (c->study.shots < 2) return status_ok();
+    session silent = { .threads = 1 };
+    const case_flight flight = case_flight_of(c);
+    shot_outcome flown;
+    shot_record record;
+    host_progress_open(&silent.progress, stderr, true);
+    host_timing_open(&silent.timing);
+    status s = gouge_session_shot(&silent, &flight, NULL, false, &flown, &record);
+    if (s.code == STATUS_OK) s = study_warm_rail_follows(&silent, c, &flown);
+    gouge_shot_outcome_free(&flown);
+    return s.code == STATUS_BAD_INPUT ? s : status_ok(); /* the run tells what else may happen */
 }

@@ -23,6 +23,12 @@ warm_rail study_warm_rail_begin(const case_onset *c, const shot_outcome *flown);
  * STATUS_BAD_INPUT: the rail would melt. */
 status study_warm_rail_shoot(session *s, warm_rail *w, bool *is_flown, shot_outcome *out, shot_record *record);
 
+/* STATUS_BAD_INPUT: before the last of the case's shots the rail would melt.  Shots after the first, which has been
+ * flown, are flown only where that one makes it likely. */
+status study_warm_rail_follows(session *s, const case_onset *c, const shot_outcome *flown);
+/* The same before anything is flown, without a run. */
+status study_warm_rail_possible(const case_onset *c);
+
 /* From the case's temperature to melting; INFINITY: no melting point is known [K] */
 double study_warm_rail_melting_rise(const case_onset *c);
 
