@@ -317,6 +317,21 @@ static void test_options(void **state)
     }
 }
 
+/* used.yaml has the keys of its load alone, whatever the command; read back it is the same case. */
+static void test_used(void **state)
+{
+    (void)state;
+    fresh_folder("used");
+    assert_int_equal(run("life " CASE " -o used/one" FEW), 0);
+    assert_int_equal(run("life used/one/used.yaml -o used/two --quiet --threads 1"), 0);
+    cJSON *one = summary_of("used/one"), *two = summary_of("used/two");
+    assert_true(number(one, "life") == number(two, "life") && number(one, "life") > 0.0);
+    cJSON_Delete(one), cJSON_Delete(two);
+    assert_int_equal(system("tail -n +2 used/one/used.yaml >1.txt && tail -n +2 used/two/used.yaml | cmp - 1.txt"), 0);
+    assert_int_equal(run("shot " CASE " -o used/shot --quiet --threads 1 --set rail.level=skin"), 0);
+    assert_int_equal(run("check used/shot/used.yaml"), 0);
+}
+
 /* The last was stopped before its second shot. */
 static void test_same_bits(void **state)
 {
@@ -368,7 +383,7 @@ int main(void)
         cmocka_unit_test(test_load),         cmocka_unit_test(test_moving_load),  cmocka_unit_test(test_signs),
         cmocka_unit_test(test_heat_alone),   cmocka_unit_test(test_shots),        cmocka_unit_test(test_refused),
         cmocka_unit_test(test_program),      cmocka_unit_test(test_options),      cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_surfaces),     cmocka_unit_test(test_used),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,15 +71,11 @@ unsigned case_life_needs(const tree_node *root, unsigned needs)
 /* An armature's load is the shot's. */
 static void check_armature(case_reader *r, const tree_node *map)
 {
-    static const char *const of_wheel[] = {
-        "profile",         "wheel_load", "pressure", "half_length", "half_width", "state",    "friction",
-        "traction_share",  "cycle",      "speed",    "until",       "batch",      "max_cuts", "cells_per_half_length",
-        "grid_half_width", "grid_depth", "points",   NULL
-    };
-    for (int k = 0; of_wheel[k]; k++)
-        if (host_tree_find(map, of_wheel[k]))
-            case_errors_add(r->errors, host_tree_find(map, of_wheel[k]),
-                            "life.%s is that of load: wheel; of load: armature the shot says what it is", of_wheel[k]);
+    for (int k = 0; k < map->n; k++)
+        if (!case_life_has(&r->out->life, map->key[k]->text))
+            case_errors_add(r->errors, map->item[k],
+                            "life.%s is that of load: wheel; of load: armature the shot says what it is",
+                            map->key[k]->text);
 }
 
 /* A warning, with the place of this value in front. */

@@ -323,6 +323,18 @@ static const base_param life_params[] = {
     PARAMS_END,
 };
 
+bool case_life_has(const void *life, const char *key)
+{
+    static const char *const of_wheel[] = {
+        "profile",         "wheel_load", "pressure", "half_length", "half_width", "state",    "friction",
+        "traction_share",  "cycle",      "speed",    "until",       "batch",      "max_cuts", "cells_per_half_length",
+        "grid_half_width", "grid_depth", "points",   NULL
+    };
+    for (int k = 0; of_wheel[k] && ((const case_life *)life)->load == LIFE_ARMATURE; k++)
+        if (strcmp(key, of_wheel[k]) == 0) return false;
+    return true;
+}
+
 static const char *const vessel_shape_names[] = { [VESSEL_CYLINDER] = "cylinder", [VESSEL_SPHERE] = "sphere", NULL };
 
 static const base_param vessel_params[] = {
@@ -602,7 +614,7 @@ static const case_section sections[] = {
       .children = target_children, .size = sizeof(case_target), .list = true },
     { SECTION(life, life_params, CASE_FOR_LIFE,
               "A load that comes again and again, and how long the rail lasts under it."),
-      .children = life_children, .size = sizeof(case_life) },
+      .children = life_children, .size = sizeof(case_life), .has = case_life_has },
     { SECTION(vessel, vessel_params, CASE_FOR_VESSEL, "Gas in liquid inside a ductile shell, which swells and bursts."),
       .children = vessel_children, .size = sizeof(case_vessel) },
     { SECTION(output, output_params, 0, "What is written."), .size = sizeof(case_output) },

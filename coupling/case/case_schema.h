@@ -22,8 +22,10 @@ typedef struct case_section {
     size_t given;                        /* offset of the `bool` in breech_case that says it was there; NO_FLAG */
     unsigned needed_for;                 /* sum of CASE_FOR_... that cannot do without */
     const char *unless; /* a mapping with this key is read elsewhere and is not this section; NULL: none */
-    bool list;          /* the member is a struct { int n; T *item; }; a lone mapping is one entry */
-    bool spread;        /* a key of the list may have several values: an entry each */
+    bool (*has)(const void *object,
+                const char *key); /* a key that it has no use for is not written; NULL: it has all */
+    bool list;                    /* the member is a struct { int n; T *item; }; a lone mapping is one entry */
+    bool spread;                  /* a key of the list may have several values: an entry each */
 } case_section;
 
 /* What every list of a case looks like. */
@@ -33,6 +35,9 @@ typedef struct {
 } case_list;
 
 extern const case_section case_root;
+
+/* Of a case_life: an armature's load has no use for the keys of a wheel's. */
+bool case_life_has(const void *life, const char *key);
 
 /* The struct of a part, where the section's first part lies at `object`. */
 void *case_part_object(const case_section *section, const case_section *part, void *object);

@@ -25,7 +25,7 @@ static void write_keys(FILE *file, const breech_case *c, const case_section *par
     bool first = in_list;
     for (const base_param *p = part->table; p->key; p++) {
         const void *member = (const char *)object + p->offset;
-        if (!case_value_is_set(p, member)) continue;
+        if (!case_value_is_set(p, member) || (part->has && !part->has(object, p->key))) continue;
         fprintf(file, "%*s%s%s: ", first ? indent - 2 : indent, "", first ? "- " : "", p->key);
         case_value_write(p, member, file);
         fputc('\n', file);
