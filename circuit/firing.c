@@ -188,8 +188,9 @@ static status minimise(search *q, gsl_multimin_fminimizer *simplex, gsl_vector *
     TRY(q->failed);
     CHECK(q->out->before < 1e299, STATUS_NUMERICAL, "no charge within %g .. %g times the given one reaches %g m/s",
           CHARGE_LIMITS[0], CHARGE_LIMITS[1], q->wish.muzzle_velocity);
-    CHECK(gsl_multimin_fminimizer_set(simplex, &f, times, steps) == GSL_SUCCESS, STATUS_NUMERICAL,
-          "the search for firing times could not be started");
+    const bool started = gsl_multimin_fminimizer_set(simplex, &f, times, steps) == GSL_SUCCESS;
+    TRY(q->failed); /* it does not accept the infinity of a trial that failed or was stopped */
+    CHECK(started, STATUS_NUMERICAL, "the search for firing times could not be started");
     while (q->failed.code == STATUS_OK && q->out->evaluations < q->wish.evaluations) {
         if (gsl_multimin_fminimizer_iterate(simplex) != GSL_SUCCESS) break;
         if (gsl_multimin_fminimizer_size(simplex) < q->wish.tolerance) break;

@@ -113,6 +113,28 @@ static bool at_once(void)
     return true;
 }
 
+static int asked, asked_at_most; /* of stop_later: so often the search may go on */
+
+static bool stop_later(void)
+{
+    return ++asked > asked_at_most;
+}
+
+/* Stopped at any trial, at those of the first simplex too, it says so. */
+static void stopped_at_any_trial(void **state)
+{
+    (void)state;
+    circuit_shot_module m[GROUPS], found[GROUPS];
+    circuit_firing_result r;
+    const circuit_shot_config c = three_groups(m);
+    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_FLAT);
+    w.peak_current = 5e5, w.evaluations = 8;
+    for (asked_at_most = 0; asked_at_most < 8; asked_at_most++) {
+        asked = 0;
+        assert_int_equal(circuit_firing_optimise(&c, &w, stop_later, found, &r).code, STATUS_STOPPED);
+    }
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -136,6 +158,7 @@ int main(void)
         cmocka_unit_test(flat_below_a_peak),
         cmocka_unit_test(velocity_at_least_energy),
         cmocka_unit_test(charge_of_one_group),
+        cmocka_unit_test(stopped_at_any_trial),
         cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
