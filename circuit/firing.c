@@ -25,7 +25,8 @@ const base_param circuit_firing_wish_params[] = {
     PARAM_DOUBLE(circuit_firing_wish, spread, "s", 1e-4, 1e-9, 1.0, "first steps of the search in the firing times"),
     PARAM_DOUBLE(circuit_firing_wish, tolerance, "s", 1e-6, 1e-12, 1.0,
                  "the search ends when its simplex is this small"),
-    PARAM_INT(circuit_firing_wish, evaluations, 400, 1, 100000, "trials of the search at most"),
+    PARAM_INT(circuit_firing_wish, evaluations, 400, 2, 100000,
+              "trials of the search at most, the first and the last with it"),
     PARAMS_END
 };
 
@@ -35,6 +36,7 @@ typedef struct {
     const circuit_shot_module *given; /* before the search */
     circuit_shot_module *modules;     /* of the trial under way */
     int n, *moved, n_moved;           /* groups; those whose time is moved */
+    int most;                         /* trials so far: what is asked for beyond is as bad as can be */
     bool (*stop)(void);
     circuit_firing_result *out;
     double scale; /* of the charges, last trial */
@@ -164,11 +166,14 @@ static status measure_velocity(search *q, double *value)
 
 /* ---- the search ---- */
 
+static const double WORST = 1e300; /* GSL does not accept infinities, but of a search that is to end */
+
 static double measure(const gsl_vector *times, void *user)
 {
     search *q = user;
     double value = INFINITY;
     if (q->failed.code != STATUS_OK) return value;
+    if (q->out->evaluations == q->most) return WORST;
     if (q->stop && q->stop()) {
         q->failed = base_status_error(STATUS_STOPPED, "the search for firing times was stopped");
         return value;
@@ -176,7 +181,7 @@ static double measure(const gsl_vector *times, void *user)
     for (int k = 0; k < q->n_moved; k++) q->modules[q->moved[k]].fire_at = fabs(gsl_vector_get(times, (size_t)k));
     q->out->evaluations++;
     q->failed = q->wish.goal == CIRCUIT_FIRING_FLAT ? measure_flat(q, &value) : measure_velocity(q, &value);
-    return isfinite(value) ? value : 1e300; /* GSL does not accept infinities */
+    return isfinite(value) ? value : WORST;
 }
 
 static status minimise(search *q, gsl_multimin_fminimizer *simplex, gsl_vector *times, gsl_vector *steps)
@@ -186,16 +191,17 @@ static status minimise(search *q, gsl_multimin_fminimizer *simplex, gsl_vector *
     gsl_vector_set_all(steps, q->wish.spread);
     q->out->before = measure(times, q);
     TRY(q->failed);
-    CHECK(q->out->before < 1e299, STATUS_NUMERICAL, "no charge within %g .. %g times the given one reaches %g m/s",
+    CHECK(q->out->before < WORST, STATUS_NUMERICAL, "no charge within %g .. %g times the given one reaches %g m/s",
           CHARGE_LIMITS[0], CHARGE_LIMITS[1], q->wish.muzzle_velocity);
     const bool started = gsl_multimin_fminimizer_set(simplex, &f, times, steps) == GSL_SUCCESS;
     TRY(q->failed); /* it does not accept the infinity of a trial that failed or was stopped */
     CHECK(started, STATUS_NUMERICAL, "the search for firing times could not be started");
-    while (q->failed.code == STATUS_OK && q->out->evaluations < q->wish.evaluations) {
+    while (q->failed.code == STATUS_OK && q->out->evaluations < q->most) {
         if (gsl_multimin_fminimizer_iterate(simplex) != GSL_SUCCESS) break;
         if (gsl_multimin_fminimizer_size(simplex) < q->wish.tolerance) break;
     }
     TRY(q->failed);
+    q->most++;
     q->out->after =
         measure(gsl_multimin_fminimizer_x(simplex), q); /* evaluated last, so that modules hold the best times */
     q->out->charge_scale = q->scale;
@@ -209,7 +215,7 @@ static status charge_alone(search *q)
     q->out->before = stored_energy(q);
     q->out->after = measure(NULL, q);
     TRY(q->failed);
-    CHECK(q->out->after < 1e299, STATUS_NUMERICAL, "no charge within %g .. %g times the given one reaches %g m/s",
+    CHECK(q->out->after < WORST, STATUS_NUMERICAL, "no charge within %g .. %g times the given one reaches %g m/s",
           CHARGE_LIMITS[0], CHARGE_LIMITS[1], q->wish.muzzle_velocity);
     q->out->charge_scale = q->scale;
     q->out->stored_energy = stored_energy(q);
@@ -287,6 +293,7 @@ status circuit_firing_optimise(const circuit_shot_config *c, const circuit_firin
                  .given = bank->item,
                  .modules = modules,
                  .n = bank->n,
+                 .most = wish->evaluations - 1, /* the last is that of the best times */
                  .stop = stop,
                  .out = out,
                  .scale = 1.0,

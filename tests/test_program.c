@@ -364,6 +364,19 @@ static bool ran_out(const cJSON *s)
     return cJSON_IsTrue(flag);
 }
 
+/* A search for firing times that ends far above the peak that was wished says so. */
+static void test_missed_peak(void **state)
+{
+    (void)state;
+    fresh_folder("missed");
+    assert_int_equal(run("shot " CASES "/flat_current -o missed/out --quiet --threads 1 --set optimise.evaluations=2"),
+                     0);
+    cJSON *s = summary_of("missed/out");
+    assert_true(number(s, "optimise_evaluations") == 2.0 && number(s, "peak_current") > 1e6);
+    assert_true(contains("missed/out/summary.json", "optimise.peak_current = 800 kA: with what was found in 2 trials"));
+    cJSON_Delete(s);
+}
+
 /* Leaving, coming to rest, and max_time while it moves or before it has begun to: told apart. */
 static void test_how_a_shot_ends(void **state)
 {
@@ -593,6 +606,7 @@ int main(void)
         cmocka_unit_test(test_instruction_set),
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_how_a_shot_ends),
+        cmocka_unit_test(test_missed_peak),
         cmocka_unit_test(test_quiet_warns),
         cmocka_unit_test(test_resume_of_another),
         cmocka_unit_test(test_resume_without_report),

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+static const double PEAK_CLOSE = 0.01; /* over the wished peak, as far as its weight in the search lets it [1] */
+
 status study_firing_find(session *s, const circuit_firing_wish *wish, case_flight *flight, firing_found *out)
 {
     circuit_supply_list *bank = &flight->launcher.supplies[CIRCUIT_SUPPLY_capacitor];
@@ -26,9 +28,16 @@ void study_firing_free(firing_found *f)
     free(f->fire_at);
 }
 
-void study_firing_record(const firing_found *f, shot_record *record)
+void study_firing_record(session *s, const circuit_firing_wish *wish, const firing_found *f, shot_record *record)
 {
+    const double peak = record->is.peak_current;
     record->firing = f->is;
     record->n_fire_at = f->n;
     record->fire_at = f->fire_at;
+    if (peak > (1.0 + PEAK_CLOSE) * wish->peak_current) /* NAN: no peak was wished */
+        run_session_warn(
+            s,
+            "optimise.peak_current = %.4g kA: with what was found in %d trials the peak is %.4g kA, %.3g %% "
+            "above it; let it search longer (optimise.evaluations), from other firing times, or charge less",
+            1e-3 * wish->peak_current, f->is.evaluations, 1e-3 * peak, 100.0 * (peak / wish->peak_current - 1.0));
 }

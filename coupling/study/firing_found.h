@@ -19,7 +19,7 @@ typedef struct {
 status study_firing_find(session *s, const circuit_firing_wish *wish, case_flight *flight, firing_found *out);
 void study_firing_free(firing_found *f);
 
-/* Says in the record what was found; it borrows the times. */
-void study_firing_record(const firing_found *f, shot_record *record);
+/* Says in the record what was found; it borrows the times.  Warns where the current exceeds what was wished. */
+void study_firing_record(session *s, const circuit_firing_wish *wish, const firing_found *f, shot_record *record);
 
 #endif

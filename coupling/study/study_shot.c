@@ -28,7 +28,7 @@ static status run(session *s, const study_case *of, study_answer *out)
     if (of->in->given.optimise) TRY(study_firing_find(s, &of->in->optimise, &flight, &a->firing));
     const status done = gouge_session_shot(s, &flight, NULL, !of->one_of_several, &o, &a->record);
     gouge_shot_outcome_free(&o);
-    if (of->in->given.optimise) study_firing_record(&a->firing, &a->record);
+    if (of->in->given.optimise) study_firing_record(s, &of->in->optimise, &a->firing, &a->record);
     if (done.code == STATUS_OK) out->result = &a->record;
     return done;
 }

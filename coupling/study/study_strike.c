@@ -169,7 +169,7 @@ static status arrive(session *s, const study_case *of, double wanted, strike_ans
     const status done = gouge_session_shot(s, &launched, NULL, !of->one_of_several, &o, &a->shot);
     gouge_shot_outcome_free(&o);
     TRY(done);
-    if (in->given.optimise) study_firing_record(&a->firing, &a->shot);
+    if (in->given.optimise) study_firing_record(s, &wish, &a->firing, &a->shot);
     a->result.firing = a->firing.is;
     *muzzle = a->shot.is.muzzle_velocity;
     CHECK(
