@@ -290,9 +290,12 @@ static int run_materials(const options *o)
     material_places at;
     material_sheet sheet;
     case_material_places_find(&at);
-    if (!o->line.subject) return complain(case_materials_print(&at, stdout));
-    if (is_folder(o->line.subject))
-        return complain(case_materials_print(&(material_places){ .n = 1, .dir = { o->line.subject } }, stdout));
+    if (!o->line.subject) return complain(case_materials_print(&at, at.n, stdout));
+    if (is_folder(o->line.subject)) {
+        memmove(at.dir + 1, at.dir, (size_t)at.n++ * sizeof *at.dir); /* what its materials build on may lie there */
+        at.dir[0] = o->line.subject;
+        return complain(case_materials_print(&at, 1, stdout));
+    }
     const status s = open_material(o->line.subject, &sheet);
     if (s.code != STATUS_OK) return complain(s);
     case_material_print(&sheet, stdout);

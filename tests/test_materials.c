@@ -333,7 +333,7 @@ static void the_table_says_what_cases_say(void **state)
     char *text = NULL, *rest = NULL, cell[3][8], set[3][100];
     size_t length = 0;
     FILE *f = open_memstream(&text, &length);
-    assert_int_equal(case_materials_print(&at, f).code, STATUS_OK);
+    assert_int_equal(case_materials_print(&at, at.n, f).code, STATUS_OK);
     fclose(f);
     const char *head = strtok_r(text, "\n", &rest);
     int tried = 0, refused = 0;
@@ -369,7 +369,7 @@ static void the_source_of_strength_is_told(void **state)
     size_t length = 0;
     int told = 0, advised = 0;
     FILE *f = open_memstream(&table, &length);
-    assert_int_equal(case_materials_print(&at, f).code, STATUS_OK);
+    assert_int_equal(case_materials_print(&at, at.n, f).code, STATUS_OK);
     fclose(f);
     assert_non_null(strstr(table, "ofhc_copper_half_hard  mts "));
     assert_non_null(strstr(table, "al7075_t651_limited    johnson_cook "));

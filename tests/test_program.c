@@ -287,6 +287,13 @@ static void test_materials(void **state)
     OK(host_file_write("metals/mine.yaml", mine, sizeof mine - 1));
     assert_int_equal(run("materials metals"), 0);
     assert_true(contains("out.txt", "mine ") && !contains("out.txt", "ofhc_copper"));
+    assert_int_equal(
+        system("cd metals && sed 's/^name: .*/name: heavy/; s/^constants:/base: ofhc_copper\\n&/' mine.yaml "
+               "> heavy.yaml"),
+        0);
+    assert_int_equal(run("materials metals"), 0); /* what it builds on is a shipped one */
+    assert_true(contains("out.txt", "heavy ") && !contains("out.txt", "has errors"));
+    assert_false(contains("out.txt", "cucrzr"));
     assert_int_equal(run("materials metals/other.yaml"), 2);
     assert_int_equal(system("sed 's/^name: .*/name: beside/' " CASES "/materials/nickel.yaml > beside.yaml"), 0);
     assert_int_equal(run("flow beside"), 0); /* a material of the folder that one works in */

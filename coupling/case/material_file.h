@@ -89,7 +89,8 @@ void case_material_names_free(char **names, int n);
 enum { MATERIAL_MAX_DIRS = 3 };
 typedef struct {
     int n;
-    const char *dir[MATERIAL_MAX_DIRS]; /* n; point into the environment, the program and `installed` */
+    const char *dir[MATERIAL_MAX_DIRS + 1]; /* n; point into the environment, the program, `installed`; room for one
+                                             * of the user's */
     char installed[MATERIAL_PATH_SIZE];
 } material_places;
 void case_material_places_find(material_places *out);

@@ -182,7 +182,7 @@ static status add_folder(listing *l, const material_places *at, int d)
     return s;
 }
 
-static status fill_listing(listing *l, const material_places *at)
+static status fill_listing(listing *l, const material_places *at, int listed)
 {
     char titles[200] = "material|strength";
     for (int i = 0; i < ROLES; i++) {
@@ -191,11 +191,11 @@ static status fill_listing(listing *l, const material_places *at)
     }
     strcat(titles, "|lacks");
     TRY(host_table_create(titles, &l->t));
-    for (int d = 0; d < at->n; d++) TRY(add_folder(l, at, d));
+    for (int d = 0; d < listed; d++) TRY(add_folder(l, at, d));
     return status_ok();
 }
 
-static void print_listing(const listing *l, const char *advice, const material_places *at, FILE *out)
+static void print_listing(const listing *l, const char *advice, const material_places *at, int listed, FILE *out)
 {
     host_table_print(l->t, out);
     fputc('\n', out);
@@ -207,19 +207,19 @@ static void print_listing(const listing *l, const char *advice, const material_p
           "breech materials NAME: all that is known of one, the source of each constant, and what it lacks\n",
           out);
     if (advice[0]) fprintf(out, "\nof several for one metal (more in docs/guide/own-launcher.md):\n%s\n", advice);
-    for (int d = 0; d < at->n; d++) fprintf(out, "%s%s\n", d == 0 ? "from " : "     ", at->dir[d]);
+    for (int d = 0; d < listed; d++) fprintf(out, "%s%s\n", d == 0 ? "from " : "     ", at->dir[d]);
 }
 
-status case_materials_print(const material_places *at, FILE *out)
+status case_materials_print(const material_places *at, int listed, FILE *out)
 {
     char *advice = NULL;
     size_t length = 0;
     listing l = { .advice = open_memstream(&advice, &length) };
     CHECK(l.advice, STATUS_MEMORY, "no memory for the list of materials");
-    status s = fill_listing(&l, at);
+    status s = fill_listing(&l, at, listed);
     if (fclose(l.advice) != 0 && s.code == STATUS_OK)
         s = base_status_error(STATUS_MEMORY, "no memory for the list of materials");
-    if (s.code == STATUS_OK) print_listing(&l, advice, at, out);
+    if (s.code == STATUS_OK) print_listing(&l, advice, at, listed, out);
     host_table_free(l.t);
     free(advice);
     return s;

@@ -19,9 +19,9 @@ typedef struct {
     unsigned without;   /* of these, what bodies that may not fail do not need */
     const char *unless; /* what the case then says; NULL: it fails in this part, or never does */
 } material_role;
-/* One line for each material in these folders with its law of strength, at most 100 columns; an earlier folder's hides
- * those of its name. */
-status case_materials_print(const material_places *at, FILE *out);
+/* One line for each material in the first folders, `listed` of them, with its law of strength, at most 100 columns; an
+ * earlier folder's hides those of its name, and what one builds on may lie in any that comes later. */
+status case_materials_print(const material_places *at, int listed, FILE *out);
 /* Laws, where that of strength is from, what it is good for, constants with their sources. */
 void case_material_print(const material_sheet *sheet, FILE *out);
 
