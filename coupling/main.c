@@ -20,6 +20,7 @@
 
 #include <math.h>
 #include <omp.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -461,6 +462,7 @@ static int follow(int argc, char **argv, int threads, lending *l)
 
 int main(int argc, char **argv)
 {
+    signal(SIGXFSZ, SIG_IGN); /* a file at the limit of its size (ulimit -f) is one that cannot be written */
     wait_passively(argv);
     status s = run_ranks_start(default_processes(argc, argv));
     if (s.code != STATUS_OK) return complain(s);

@@ -594,6 +594,11 @@ static void test_failed(void **state)
     fresh_folder("failed");
     assert_int_equal(run("scene " TINY " -o failed/a --set scene.rail_depth='0.3 mm'"), 2);
     assert_int_equal(run("scene " TINY " -o /proc/nowhere/a"), 1);
+    assert_int_equal(system("ulimit -f 4; " BREECH_PROGRAM " shot " SHOT
+                            " -o failed/limited --no-store --quiet --threads "
+                            "1 --set rail.level=skin >out.txt 2>err.txt; test $? -eq 1"),
+                     0);
+    assert_true(contains("err.txt", "cannot be written") && files_in("failed/limited", ".part") == 0);
 }
 
 int main(void)
