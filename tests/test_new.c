@@ -156,6 +156,8 @@ static void test_refused(void **state)
         { "new refused", "is there already" },
         { "new ..", "no name for a case" },
         { "new 'refused/a b'", "no name for a case" },
+        { "new _", "no name for a case" },
+        { "new refused/a23456789012345678901234567890123456789012345678901234567890123x", "no name for a case" },
         { "new refused/a --from nothing", "shot, bodies, strike, life" },
         { "new refused/a --from refused/bad.yaml", "has errors" },
         { "new refused/a --from ''", "empty" },
@@ -167,6 +169,10 @@ static void test_refused(void **state)
         assert_false(exists("refused/a"));
     }
     assert_true(contains("refused/there/case.yaml", "changed"));
+    assert_int_equal(system("ulimit -f 1; " BREECH_PROGRAM " new refused/a >out.txt 2>err.txt; test $? -eq 1"), 0);
+    assert_false(exists("refused/a")); /* nothing of it stays in the way of another try */
+    assert_int_equal(run("new refused/a23456789012345678901234567890123456789012345678901234567890123"), 0);
+    assert_int_equal(run("check refused/a23456789012345678901234567890123456789012345678901234567890123"), 0);
 }
 
 int main(void)

@@ -367,13 +367,17 @@ static void check_shape(case_reader *r, const tree_node *map, const char *shape,
                     near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
 }
 
+bool case_name_has_word(const char *name)
+{
+    while (*name && !isalnum((unsigned char)*name)) name++;
+    return *name != '\0';
+}
+
 /* Its output goes to out/<name>. */
 static void check_name(case_reader *r)
 {
     const tree_node *node = host_tree_find(r->root, "name");
-    const char *c = r->out->name;
-    while (*c && !isalnum((unsigned char)*c)) c++;
-    if (r->out->name[0] && !*c)
+    if (r->out->name[0] && !case_name_has_word(r->out->name))
         case_errors_add(r->errors, node, "name = %.*s: must have a letter or a digit", CASE_SHOWN, r->out->name);
 }
 

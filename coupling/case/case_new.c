@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#define _XOPEN_SOURCE 700 /* nftw */
 #include "coupling/case/case_new.h"
 
 #include "coupling/case/case_reader.h"
@@ -6,6 +7,7 @@
 #include "coupling/host/file_text.h"
 #include "coupling/host/outdir.h"
 
+#include <ftw.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -198,6 +200,14 @@ static status copy_case(const char *file, const char *to, const char *as, const 
     return s;
 }
 
+enum { OPEN_FOLDERS = 8 };
+
+static int remove_entry(const char *path, const struct stat *info, int type, struct FTW *at)
+{
+    (void)info, (void)type, (void)at;
+    return remove(path);
+}
+
 status case_new_make(const char *path, const char *file)
 {
     char folder[CASE_START_SIZE];
@@ -206,8 +216,13 @@ status case_new_make(const char *path, const char *file)
     CHECK(n < CASE_PATH_SIZE - 20, STATUS_BAD_INPUT, "%.200s...: the path is too long", path);
     for (int end = n; end > 1 && folder[end - 1] == '/';) folder[--end] = '\0';
     const char *name = last_part(folder);
-    CHECK(host_name_is_plain(name), STATUS_BAD_INPUT,
-          "%.200s is no name for a case: letters, digits, - _ and dots, no dot first", path);
+    CHECK(
+        host_name_is_plain(name) && case_name_has_word(name) && strlen(name) < BASE_PARAM_TEXT_SIZE, STATUS_BAD_INPUT,
+        "%.200s is no name for a case: at most %d letters, digits, - _ and dots, one of the first two at least, no dot "
+        "first",
+        path, BASE_PARAM_TEXT_SIZE - 1);
     CHECK(lstat(folder, &there) != 0, STATUS_BAD_INPUT, "%s is there already: take another name, or remove it", folder);
-    return copy_case(file, folder, "case.yaml", name, NULL);
+    const status s = copy_case(file, folder, "case.yaml", name, NULL);
+    if (s.code != STATUS_OK) nftw(folder, remove_entry, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS);
+    return s;
 }

@@ -104,6 +104,8 @@ void case_check_whole(case_reader *r);
 
 /* What a case for these needs needs beside: of `breech strike` without a velocity of its own, the shot. */
 unsigned case_strike_needs(const tree_node *root, unsigned needs);
+/* Has the name of a case a letter or a digit? */
+bool case_name_has_word(const char *name);
 /* The bodies that `strike` names, what its flight needs. */
 void case_strike_check(case_reader *r);
 /* The same of `breech life` under an armature; of `breech compare` by its life, which may do without grains. */
