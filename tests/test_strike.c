@@ -385,6 +385,15 @@ static void test_limit(void **state)
     s = summary_of("limit/c");
     bracket = cJSON_GetObjectItemCaseSensitive(s, "limit_interval");
     assert_true(cJSON_IsNull(cJSON_GetArrayItem(bracket, 0)) && cJSON_IsNumber(cJSON_GetArrayItem(bracket, 1)));
+    assert_true(isnan(number(s, "limit_velocity")));
+    cJSON_Delete(s);
+    /* one between those that are stopped and those that pierce has not: the limit is the middle of the decided */
+    assert_int_equal(run("strike limit -o limit/d --quiet --threads 1 --set strike.travel='12 mm'"), 0);
+    s = summary_of("limit/d");
+    bracket = cJSON_GetObjectItemCaseSensitive(s, "limit_interval");
+    assert_true(number(s, "limit_velocity") ==
+                0.5 * (cJSON_GetArrayItem(bracket, 0)->valuedouble + cJSON_GetArrayItem(bracket, 1)->valuedouble));
+    assert_true(contains("limit/d/summary.json", "m/s 1 is not decided; a longer scene (strike.travel)"));
     cJSON_Delete(s);
     assert_int_equal(run("strike limit -o limit/b --quiet --set study.velocity_low='890 m/s'"), 2);
     assert_true(contains("err.txt", "hold fewer than two velocities"));

@@ -106,6 +106,23 @@ static bool is_held(const strike_limit *l, const strike_projectile *p, double ve
     return false;
 }
 
+/* The middle between decided arrivals; those between them are told. */
+static void conclude_found(session *s, const strike_projectile *p, strike_limit *l)
+{
+    int undecided = 0;
+    l->velocity = 0.5 * (l->interval[0] + l->interval[1]);
+    for (int i = 0; i < l->arrivals; i++) {
+        const double v = l->arrival[i].is.impact_velocity;
+        undecided += v > l->interval[0] && v < l->interval[1] && l->arrival[i].is.class == STRIKE_UNFINISHED;
+    }
+    if (undecided > 0)
+        run_session_warn(s,
+                         "limit_interval: of the arrivals between %g and %g m/s %d %s not decided; a longer scene (%s) "
+                         "makes it narrower",
+                         l->interval[0], l->interval[1], undecided, undecided == 1 ? "is" : "are",
+                         p->piston ? "scene.end_time" : "strike.travel");
+}
+
 static void conclude(session *s, const case_study *c, const strike_projectile *p, const threshold_result *r,
                      strike_limit *l)
 {
@@ -113,7 +130,6 @@ static void conclude(session *s, const case_study *c, const strike_projectile *p
     double arrival[THRESHOLD_MAX_SAMPLES + 1], residual[THRESHOLD_MAX_SAMPLES + 1];
     int n = 0;
     for (int k = 0; k < 2; k++) l->interval[k] = r->interval[k];
-    if (r->outcome == THRESHOLD_FOUND) l->velocity = 0.5 * (r->bracket[0] + r->bracket[1]);
     if (r->outcome == THRESHOLD_FOUND && !is_held(l, p, r->interval[0])) {
         run_session_warn(s,
                          "limit_interval has no lower end: no arrival below %g m/s is decided; take a longer scene "
@@ -121,6 +137,7 @@ static void conclude(session *s, const case_study *c, const strike_projectile *p
                          r->interval[0], p->piston ? "scene.end_time" : "strike.travel");
         l->interval[0] = NAN;
     }
+    if (r->outcome == THRESHOLD_FOUND) conclude_found(s, p, l);
     if (r->outcome == THRESHOLD_BELOW)
         run_session_warn(s, "the limit velocity lies below study.velocity_low = %g m/s: that %s", c->velocity_low,
                          above);

@@ -21,7 +21,7 @@ typedef struct {
 } strike_arrival;
 
 typedef struct {
-    double velocity;    /* middle of the bracket; NAN: not asked for, or not in the range [m/s] */
+    double velocity;    /* middle of the interval; NAN: not asked for, not in the range, or an end is not known [m/s] */
     double interval[2]; /* NAN: that end is not known [m/s] */
     strike_fit fit;     /* of all that pierced */
     int arrivals;
