@@ -156,6 +156,12 @@ static void test_refused(void **state)
         { "{of: shot, vary: [{key: bank.charge, values: []}]}", "values is empty" },
         { "{of: shot}", "sweep.vary is empty" },
         { "{of: shot, vary: [{key: sweep.of, values: [scene]}]}", "cannot vary itself" },
+        { "{of: shot, vary: [{key: bank.charge, values: [8 kV]}, {key: bank.charge, values: [9 kV]}]}",
+          "sweep.vary[1].key = bank.charge: sets what vary[0] sets" },
+        { "{of: shot, vary: [{key: bank.charge, values: [8 kV]}, {key: 'bank[0].charge', values: [9 kV]}]}",
+          "sets what vary[0] sets, bank.charge" },
+        { "{of: shot, vary: [{key: 'bank[0].charge', values: [8 kV]}, {key: 'bank[1].charge', values: [-9 kV]}]}",
+          "bank has one entry: bank[0]" }, /* two groups are not the same */
         { "{of: shot, vary: [{values: [1]}]}", "sweep.vary[0].key is missing" },
         { "{of: scene, vary: [{key: bank.charge, values: [8 kV]}]}", "`breech scene` needs it" },
     };
