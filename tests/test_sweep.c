@@ -201,6 +201,8 @@ static void test_places(void **state)
           "[0.2]}]}\n",
           "places/case.yaml:3:60: sweep.vary[0].values[1]: run 2 (life.speed = 9 km/s, life.friction = 0.2): "
           "life.speed = 9000 m/s: must lie below" },
+        { "base: " SHOT_CASE "\nsweep: {of: shot, vary: [{key: bank.charge}]}\n",
+          "places/case.yaml:2:26: sweep.vary[0].values is empty" },
     };
     fresh_folder("places");
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {

@@ -183,7 +183,8 @@ static status check_values(const case_sweep *w)
     CHECK(w->vary.n <= CASE_SWEEP_KEYS, STATUS_BAD_INPUT, "sweep.vary: more than %d keys", CASE_SWEEP_KEYS);
     for (int k = 0; k < w->vary.n; k++) {
         const case_varied *v = &w->vary.item[k];
-        CHECK(v->values.n > 0, STATUS_BAD_INPUT, "sweep.vary[%d].values is empty: the values of %s", k, v->key);
+        CHECK(v->values.n > 0, STATUS_BAD_INPUT, "sweep.vary[%d].values is empty: what the key is to be set to",
+              k); /* the key would be taken for the place */
         CHECK(strncmp(v->key, "sweep.", 6) != 0, STATUS_BAD_INPUT,
               "sweep.vary[%d].key = %s: a sweep cannot vary itself", k, v->key);
         for (int i = 0; i < k; i++)
