@@ -126,6 +126,20 @@ static void test_many_columns(void **state)
     free(text);
 }
 
+/* Many values take a while to read: the end of the time is seen there too. */
+static void test_stopped(void **state)
+{
+    (void)state;
+    assert_int_equal(run("sweep " SHOT_CASE
+                         " -o stopped --force --quiet --max-walltime 1e-6 --set sweep=\"{of: shot, vary: "
+                         "[{key: bank.charge, values: [8 kV]}]}\""),
+                     75);
+    char *text;
+    OK(host_file_read("stopped/summary.json", &text, NULL));
+    assert_non_null(strstr(text, "--max-walltime reached: before run 1 was read"));
+    free(text);
+}
+
 /* Bad input, exit code 2, and says so. */
 static void refuses(const char *arguments, const char *says)
 {
@@ -326,14 +340,9 @@ static void test_drawn_over(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_as_runs_of_their_own),
-        cmocka_unit_test(test_together),
-        cmocka_unit_test(test_many_columns),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_places),
-        cmocka_unit_test(test_resolution),
-        cmocka_unit_test(test_probes),
-        cmocka_unit_test(test_drawn_over),
+        cmocka_unit_test(test_as_runs_of_their_own), cmocka_unit_test(test_together), cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_many_columns),         cmocka_unit_test(test_refused),  cmocka_unit_test(test_places),
+        cmocka_unit_test(test_resolution),           cmocka_unit_test(test_probes),   cmocka_unit_test(test_drawn_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

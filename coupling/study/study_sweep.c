@@ -443,6 +443,7 @@ static status sweep(session *s, const study_case *of, sweep_answer *a)
     a->result.run = a->run;
     snprintf(a->result.of, sizeof a->result.of, "%s", a->of->name);
     for (int i = 0; i < a->runs; i++) {
+        CHECK(!s->stop || !s->stop(), STATUS_STOPPED, "before run %d was read", i + 1);
         snprintf(a->prefix[i], sizeof a->prefix[i], "s%d-", i + 1);
         TRY(read_run(of, a->of, i, &a->in[i]));
     }
