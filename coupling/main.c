@@ -267,6 +267,7 @@ static int run_check(const options *o)
 
 /* ---- materials ---- */
 
+/* Says what is wrong with it. */
 static status open_material(const char *name, material_sheet *sheet)
 {
     material_places at;
@@ -275,7 +276,10 @@ static status open_material(const char *name, material_sheet *sheet)
     case_material_places_find(&at);
     for (int i = 0; i < at.n; i++) dirs[i + 1] = at.dir[i];
     const status s = case_material_sheet_open(name, dirs, at.n + 1, sheet, &errors);
-    if (errors) fputs(errors, stderr);
+    if (errors)
+        fputs(errors, stderr);
+    else
+        complain(s);
     free(errors);
     return s;
 }
@@ -298,7 +302,7 @@ static int run_materials(const options *o)
         return complain(case_materials_print(&at, 1, stdout));
     }
     const status s = open_material(o->line.subject, &sheet);
-    if (s.code != STATUS_OK) return complain(s);
+    if (s.code != STATUS_OK) return exit_code(s);
     case_material_print(&sheet, stdout);
     case_material_sheet_free(&sheet);
     return EXIT_DONE;
@@ -308,7 +312,7 @@ static int run_flow(const options *o)
 {
     material_sheet sheet;
     status s = open_material(o->line.subject, &sheet);
-    if (s.code != STATUS_OK) return complain(s);
+    if (s.code != STATUS_OK) return exit_code(s);
     s = study_flow_print(&sheet.material, o->line.sets, o->line.n_sets, stdout);
     case_material_sheet_free(&sheet);
     return complain(s);

@@ -295,6 +295,10 @@ static void test_materials(void **state)
     assert_true(contains("out.txt", "heavy ") && !contains("out.txt", "has errors"));
     assert_false(contains("out.txt", "cucrzr"));
     assert_int_equal(run("materials metals/other.yaml"), 2);
+    assert_true(contains("err.txt", "metals/other.yaml"));
+    assert_int_equal(system("sed 's/density/densty/' metals/mine.yaml > metals/wrong.yaml"), 0);
+    assert_int_equal(run("materials metals/wrong.yaml"), 2);
+    assert_true(contains("err.txt", "densty") && !contains("err.txt", "breech: ")); /* each error once */
     assert_int_equal(system("sed 's/^name: .*/name: beside/' " CASES "/materials/nickel.yaml > beside.yaml"), 0);
     assert_int_equal(run("flow beside"), 0); /* a material of the folder that one works in */
 }
