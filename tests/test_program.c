@@ -146,6 +146,8 @@ static void test_senseless(void **state)
 static void test_bad_case(void **state)
 {
     (void)state;
+    assert_int_equal(run("check " SHOT " --set ''"), 2);
+    assert_true(contains("err.txt", "wanted path.to.key=value"));
     fresh_folder("bad");
     FILE *f = fopen("bad/case.yaml", "w");
     fputs("name: bad\nrails: {height: 25 mm, thickness: 20 kg, separation: 25 mm}\nbarrel: {lenght: 3 m}\n"

@@ -102,7 +102,8 @@ static status set_all(case_reader *r, const case_text *text, tree_node **root)
     for (int k = 0; k < text->n_sets; k++) {
         char *now = NULL;
         TRY(case_old_name_of_set(r, text->sets[k], &now));
-        const status s = now[0] ? host_tree_set(root, now, k) : status_ok();
+        const bool is_read = now[0] || !text->sets[k][0]; /* an empty one is not an old key, but wrong */
+        const status s = is_read ? host_tree_set(root, now, k) : status_ok();
         free(now);
         CHECK(s.code == STATUS_OK || s.code == STATUS_BAD_INPUT, s.code, "%s", s.text);
         if (s.code != STATUS_OK) case_errors_add(r->errors, &(tree_node){ .set = k }, "%s", s.text);
