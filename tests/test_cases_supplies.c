@@ -2,6 +2,7 @@
 /* The cases of every supply: read as they are, run, energy closed, in the report's table too; the published pulse of
  * one unit. */
 #include "coupling/case/case.h"
+#include "coupling/case/profile_file.h"
 #include "coupling/gouge/site_state.h"
 #include "coupling/host/outdir.h"
 #include "coupling/output/history.h"
@@ -15,6 +16,8 @@
 #include <stdlib.h>
 
 #include <cmocka.h>
+
+#include "status_common.h"
 
 #define CASES BREECH_TESTS "/../cases/"
 
@@ -193,13 +196,26 @@ static void bad_tables(void **state)
     }
 }
 
+/* The byte-order mark that a spreadsheet writes first is no part of the table. */
+static void marked_table(void **state)
+{
+    (void)state;
+    static const char table[] = "\xEF\xBB\xBF"
+                                "0,0\n1e-3,5\n2e-3,0\n";
+    circuit_supply_point *points = NULL;
+    int n = 0;
+    OK(host_file_write("marked.csv", table, sizeof table - 1));
+    OK(case_profile_read("marked.csv", &points, &n));
+    assert_int_equal(n, 3);
+    assert_true(points[1].time == 1e-3 && points[1].current == 5.0);
+    free(points);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cases_run),
-        cmocka_unit_test(tables_close),
-        cmocka_unit_test(published_pulse),
-        cmocka_unit_test(bad_tables),
+        cmocka_unit_test(cases_run),  cmocka_unit_test(tables_close), cmocka_unit_test(published_pulse),
+        cmocka_unit_test(bad_tables), cmocka_unit_test(marked_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char BYTE_ORDER_MARK[] = "\xEF\xBB\xBF"; /* of UTF-8, which spreadsheets put first */
+
 typedef struct {
     circuit_supply_point *item;
     size_t n, room;
@@ -75,6 +77,7 @@ status case_profile_read(const char *path, circuit_supply_point **points, int *n
     char *text = realloc(bytes, length + 1), *line = text;
     status s = text ? status_ok() : base_status_error(STATUS_MEMORY, "no memory for %.300s", path);
     if (text) text[length] = '\0';
+    if (text && strncmp(text, BYTE_ORDER_MARK, strlen(BYTE_ORDER_MARK)) == 0) line += strlen(BYTE_ORDER_MARK);
     for (int number = 0; line && s.code == STATUS_OK; number++) {
         char *end = strchr(line, '\n');
         if (end) *end = '\0';
