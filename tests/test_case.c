@@ -197,6 +197,9 @@ static void all_errors_at_once(void **state)
     has_line(e, "case.yaml:10:1: unknown key `velocity`; `armature` has one\n");
     assert_null(strstr(e, "lead_angle is missing")); /* a mistyped key is one error, not two */
     free(e);
+    e = errors_of("name: cold\nrail: {temperature: -300 degC}\n", NULL, 0, 0); /* not for its sign */
+    has_line(e, "case.yaml:2:21: rail.temperature = -300 degC: must lie within the range (-269.15 degC .. ");
+    free(e);
 }
 
 /* Also keys of a scene whose bodies stand at the wrong place. */

@@ -46,7 +46,8 @@ static void out_of_range(case_reader *r, const base_param *p, const tree_node *n
                          const char *user_unit, double value)
 {
     char range[LIMITS_SIZE + 3];
-    const char *must = p->min > 0.0 && value <= 0.0 ? "must be positive" : "must lie within the range";
+    const bool kelvin = strcmp(p->unit, "K") == 0; /* what is positive may be below zero, in degC */
+    const char *must = p->min > 0.0 && value <= 0.0 && !kelvin ? "must be positive" : "must lie within the range";
     case_errors_add(r->errors, node, "%s = " CASE_ECHO ": %s%s", path, CASE_ECHO_OF(node->text), must,
                     range_text(r, p, user_unit, range));
 }
