@@ -92,6 +92,7 @@ static void test_refused(void **state)
     refused("key: crater_depth, value: 1 mm", "belong together");
     refused("key: crater_depth, value: 1 furlongs_of_beer, within: 1", "must be a number with a unit");
     refused("key: class, is: gouge, at_least: 1", "`is` and `at_least` exclude each other");
+    refused("key: crater_depth, value: 0.5 mm, within: -10 %", "within = -10 %: must not be negative");
     refused("key: crater_depth, valeu: 1 mm, within: 1 mm", "unknown key `valeu`");
 }
 

@@ -153,6 +153,8 @@ static status compare_number(const comparison *c, const tree_node *entry, const 
           "%.200s:%d:%d: give a value, at_least, at_most or is", c->path, entry->line, entry->column);
     CHECK(isnan(value) == isnan(within), STATUS_BAD_INPUT, "%.200s:%d:%d: `value` and `within` belong together",
           c->path, entry->line, entry->column);
+    CHECK(!(within < 0.0), STATUS_BAD_INPUT, "%.200s:%d:%d: within = %.60s: must not be negative", c->path, band->line,
+          band->column, band->text);
     if (band && strchr(band->text, '%')) within *= fabs(value);
     const bool there = cJSON_IsNumber(found);
     const double is = there ? found->valuedouble : NAN;
