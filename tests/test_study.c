@@ -966,8 +966,8 @@ static void test_hard_film(void **state)
     case_free(c);
 }
 
-/* Of grains alike some are too slow for scenes by a screen that was set too high: what the others' scenes say counts for
- * them too. */
+/* Of grains alike some are too slow for scenes by a screen that was set too high: what the others' scenes say counts
+ * for them too. */
 static void test_screened_with_others(void **state)
 {
     (void)state;

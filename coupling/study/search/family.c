@@ -158,7 +158,8 @@ static status sort_populations(grain_families *f)
 
 /* ---- what the screen alone decides ---- */
 
-const grain_family *study_family_of_grain(const grain_families *f, const case_site *grain, double aspect)
+/* NULL: no grain alike has scenes. */
+static const grain_family *family_of_grain(const grain_families *f, const case_site *grain, double aspect)
 {
     for (int k = 0; k < f->n; k++)
         if (same_family(&f->family[k], grain, aspect)) return &f->family[k];
@@ -169,7 +170,7 @@ int study_family_of_site(const grain_families *f, int site)
 {
     const case_site *grain = &f->c->sites.item[site];
     if (f->of_site[site] >= 0 || !f->flown->site[site].reached) return f->of_site[site];
-    const grain_family *alike = study_family_of_grain(f, grain, grain->height / grain->radius);
+    const grain_family *alike = family_of_grain(f, grain, grain->height / grain->radius);
     return alike ? (int)(alike - f->family) : -1;
 }
 
@@ -199,7 +200,7 @@ static status find_unbacked_populations(grain_families *f, const case_surface *s
         const case_site grain = grain_of(p);
         screen hit;
         TRY(study_population_sizes(p, f->c->study.smallest_radius, &sizes));
-        if (sizes.n == 0 || f->of_population[i] >= 0 || study_family_of_grain(f, &grain, p->aspect)) continue;
+        if (sizes.n == 0 || f->of_population[i] >= 0 || family_of_grain(f, &grain, p->aspect)) continue;
         TRY(softest_under(surface, p->aspect, &sizes, gouge_trace_fastest(f->flown), &hit));
         note_unbacked(f, &hit);
     }

@@ -88,9 +88,6 @@ case_impact study_family_probe(const case_onset *c);
 /* Searches all families of n cases to their end. */
 status study_families_search(session *s, grain_families *const *f, int n);
 
-/* The family that this grain belongs to, whether the screen skips it or not; NULL: no grain alike has scenes. */
-const grain_family *study_family_of_grain(const grain_families *f, const case_site *grain, double aspect);
-
 /* That of a site, whether the screen skips it or not: an index, -1: no grain alike has scenes, or it is not reached. */
 int study_family_of_site(const grain_families *f, int site);
 

@@ -401,16 +401,6 @@ status study_surface_tell(surface_search *s, const surface_sample *answer)
     return status_ok();
 }
 
-void study_surface_stop(surface_search *s)
-{
-    if (s->over) return;
-    if (at_reference(s)) {
-        study_threshold_stop(&s->reference);
-        take_answer_of_reference(s);
-    }
-    conclude(s);
-}
-
 static surface_size size_at(const surface_result *s, double radius)
 {
     const surface_size *first = &s->size[0], *last = &s->size[s->sizes - 1];

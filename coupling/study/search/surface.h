@@ -77,8 +77,6 @@ status study_surface_begin(const surface_plan *plan, surface_search *out);
 int study_surface_ask(const surface_search *s, surface_wanted out[THRESHOLD_TOGETHER]);
 /* The answer of one of them.  STATUS_NUMERICAL: it has no excess; the search is where it was. */
 status study_surface_tell(surface_search *s, const surface_sample *answer);
-/* Ends the search with what it has been told; the open question is dropped. */
-void study_surface_stop(surface_search *s);
 
 /* A search that is over: what these n scenes say, without another one. */
 status study_surface_conclude(const surface_plan *plan, const surface_sample *list, int n, surface_search *out);

@@ -563,14 +563,8 @@ status study_threshold_conclude(const threshold_plan *plan, const threshold_samp
     for (int i = 0; i < n && r->samples < THRESHOLD_MAX_SAMPLES; i++) r->sample[r->samples++] = list[i];
     out->coarse = bracket_in(r, plan->coarse);
     if (plan->fine != plan->coarse) out->refined = bracket_in(r, plan->fine);
-    study_threshold_stop(out);
+    out->stopped = true;
+    out->n_asked = 0;
+    conclude_all(out);
     return status_ok();
-}
-
-void study_threshold_stop(threshold_search *s)
-{
-    if (s->stage == THRESHOLD_OVER) return;
-    s->stopped = true;
-    s->n_asked = 0;
-    conclude_all(s);
 }

@@ -136,9 +136,7 @@ status study_threshold_begin(const threshold_plan *plan, threshold_search *out);
 int study_threshold_ask(const threshold_search *s, threshold_wanted out[THRESHOLD_TOGETHER]);
 /* The answer of one of them.  STATUS_NUMERICAL: it has no excess; the search is where it was. */
 status study_threshold_tell(threshold_search *s, const threshold_sample *answer);
-/* Ends the search with what it has been told, as if max_scenes were spent; the open question is dropped. */
-void study_threshold_stop(threshold_search *s);
-/* A search that is over: what these n scenes say, without another one. */
+/* A search that is over: what these n scenes say, as if max_scenes were spent with them. */
 status study_threshold_conclude(const threshold_plan *plan, const threshold_sample *list, int n, threshold_search *out);
 
 /* From an end of a bracket outwards to the first decided scene of its side and cells among these n; where the scatter
