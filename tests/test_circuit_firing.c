@@ -36,6 +36,13 @@ static circuit_firing_wish wish_of(circuit_firing_goal goal)
     return w;
 }
 
+static circuit_firing_wish wish_of_flat(void)
+{
+    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_FLAT);
+    w.peak_current = 500e3;
+    return w;
+}
+
 static circuit_shot_summary shoot(circuit_shot_config c, const circuit_shot_module *m)
 {
     circuit_shot *s = NULL;
@@ -53,8 +60,7 @@ static void flat_below_a_peak(void **state)
     circuit_shot_module m[GROUPS], found[GROUPS];
     circuit_firing_result r;
     const circuit_shot_config c = three_groups(m);
-    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_FLAT);
-    w.peak_current = 500e3;
+    circuit_firing_wish w = wish_of_flat();
     OK(circuit_firing_optimise(&c, &w, NULL, found, &r));
     const circuit_shot_summary got = shoot(c, found);
     print_message("unevenness %.4f -> %.4f, peak %.1f kA, %d trials\n", r.before, r.after, 1e-3 * got.peak_current,
@@ -72,8 +78,7 @@ static void keeps_its_budget(void **state)
     circuit_shot_module m[GROUPS], found[GROUPS];
     circuit_firing_result r;
     const circuit_shot_config c = three_groups(m);
-    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_FLAT);
-    w.peak_current = 500e3;
+    circuit_firing_wish w = wish_of_flat();
     for (w.evaluations = 2; w.evaluations < 12; w.evaluations++) {
         OK(circuit_firing_optimise(&c, &w, NULL, found, &r));
         assert_int_equal(r.evaluations, w.evaluations);

@@ -563,6 +563,24 @@ static void test_screened_surface(void **state)
     }
 }
 
+/* Polished so far that no grain is large enough for a scene: none is drawn that gouges, which is no proof. */
+static void test_polished_to_nothing(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD "populations: [{density: 3 1/m, radius_median: 0.5 mm, radius_spread: 0}]\n"
+                               "treatments: [{name: polished, polish: {size: 0.15}}]\n",
+                          ALL);
+    compare_answer a;
+    OK(run_compare(c, "polished", &a));
+    const compare_entry *best = &a.result.ranking[0];
+    assert_string_equal(best->surface, "polished");
+    assert_true(best->scenes == 0 && best->gouges == 0.0 && best->better_than_next == 1.0);
+    assert_true(!best->significant && a.result.ranking[1].tied == 1);
+    assert_non_null(strstr(warned, "taken not to gouge, which nothing shows"));
+    study_compare_answer_free(&a);
+    case_free(c);
+}
+
 static void test_ranking(void **state)
 {
     (void)state;
@@ -1881,6 +1899,7 @@ int main(void)
         cmocka_unit_test(test_no_chain_of_ties),
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_screened_surface),
+        cmocka_unit_test(test_polished_to_nothing),
         cmocka_unit_test(test_warnings_name_the_surface),
         cmocka_unit_test(test_what_layers_suffer),
         cmocka_unit_test(test_seed),

@@ -453,7 +453,7 @@ static void test_one_side_undecided(void **state)
     f = plain(line, 2010.0);
     plan.max_scenes = 2; /* says that it was short of scenes */
     const threshold_result few = search(&f, &plan);
-    assert_true(few.outcome == THRESHOLD_UNKNOWN && strstr(few.warning, "study.max_scenes = 2 spent"));
+    assert_true(few.outcome == THRESHOLD_UNKNOWN && strstr(few.warning, "study.max_scenes spent before a scene above"));
 }
 
 /* Scenes that are there, whatever order: the lowest change of side. */

@@ -45,6 +45,7 @@ static void write_surface(FILE *out, const cJSON *entry)
 {
     if (gouges_not(entry)) {
         fputs("does not gouge in this shot", out);
+        if (report_number(entry, "scenes") == 0.0) fputs(" as far as is known: no scene of its own was run", out);
         return;
     }
     fputs("gouges from ", out);

@@ -373,16 +373,15 @@ static status list_surface(onset_answer *a)
     for (int k = 0; k < a->grains.n; k++)
         for (int j = 0; j < a->grains.family[k].surface.sizes; j++) {
             const grain_family *f = &a->grains.family[k];
-            const surface_size *size = &f->surface.size[j], at = study_surface_at(&f->surface, size->radius),
-                               *from = &at;
+            const surface_size from = study_surface_at(&f->surface, f->surface.size[j].radius);
             onset_size *to = &a->size[a->result.n_surface++];
             *to = (onset_size){ .family = k + 1,
-                                .radius = from->radius,
-                                .grains = from->weight,
-                                .threshold_velocity = from->velocity,
-                                .threshold_interval = { from->interval[0], from->interval[1] },
-                                .scenes = from->scenes };
-            const surface_size scratch = scratch_at(f, from->radius);
+                                .radius = from.radius,
+                                .grains = from.weight,
+                                .threshold_velocity = from.velocity,
+                                .threshold_interval = { from.interval[0], from.interval[1] },
+                                .scenes = from.scenes };
+            const surface_size scratch = scratch_at(f, from.radius);
             to->scratch_velocity = scratch.velocity;
             memcpy(to->scratch_interval, scratch.interval, sizeof scratch.interval);
             memcpy(to->shape, f->grain.shape, sizeof to->shape);

@@ -73,7 +73,7 @@ typedef struct {
     lane *lane;     /* owned */
     strewn *strewn; /* one a population, owned */
     double *sum;    /* [n x shots x SUMS], owned */
-    double *share;  /* of each thing that a world draws, [things x MC_WORLDS], 0 .. 1, owned */
+    double *share;  /* of each number that a world draws, [numbers x MC_WORLDS], 0 .. 1, owned */
     mc_result *out; /* sums of what is strewn until they are means */
     uint64_t drawn; /* grains so far */
     bool stopped;
@@ -310,8 +310,8 @@ static void count(mc *m, mc_result *out, int world, int number)
     }
 }
 
-/* Latin hypercube (docs/theory/onset.md): one world in each MC_WORLDS-th of what a thing may be. */
-static void draw_thing(mc *m, double share[MC_WORLDS])
+/* Latin hypercube (docs/theory/onset.md): one world in each MC_WORLDS-th of what a number may be. */
+static void draw_number(mc *m, double share[MC_WORLDS])
 {
     for (int w = 0; w < MC_WORLDS; w++) share[w] = (w + gsl_rng_uniform(m->rng)) / MC_WORLDS;
     gsl_ran_shuffle(m->rng, share, MC_WORLDS, sizeof *share);
@@ -537,11 +537,11 @@ static status make_strewn(mc *m, int index)
 /* u_a, then u_b and u_o of each family of each surface. */
 static status draw_worlds(mc *m)
 {
-    size_t things = 1;
-    for (int i = 0; i < m->plan->n; i++) things += 2 * (size_t)m->lane[i].grains->n;
-    m->share = calloc(things * MC_WORLDS, sizeof *m->share);
+    size_t numbers = 1;
+    for (int i = 0; i < m->plan->n; i++) numbers += 2 * (size_t)m->lane[i].grains->n;
+    m->share = calloc(numbers * MC_WORLDS, sizeof *m->share);
     CHECK(m->share, STATUS_MEMORY, "no memory for the Monte Carlo");
-    for (size_t k = 0; k < things; k++) draw_thing(m, m->share + k * MC_WORLDS);
+    for (size_t k = 0; k < numbers; k++) draw_number(m, m->share + k * MC_WORLDS);
     return status_ok();
 }
 

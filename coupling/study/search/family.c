@@ -170,8 +170,8 @@ int study_family_of_site(const grain_families *f, int site)
 {
     const case_site *grain = &f->c->sites.item[site];
     if (f->of_site[site] >= 0 || !f->flown->site[site].reached) return f->of_site[site];
-    const grain_family *alike = family_of_grain(f, grain, grain->height / grain->radius);
-    return alike ? (int)(alike - f->family) : -1;
+    const grain_family *same = family_of_grain(f, grain, grain->height / grain->radius);
+    return same ? (int)(same - f->family) : -1;
 }
 
 static void note_unbacked(grain_families *f, const screen *hit)

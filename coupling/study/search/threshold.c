@@ -302,8 +302,7 @@ static void one_sided(threshold_search *s, const threshold_bracket *b)
     if (b->has_hi && b->hi.velocity == grid_low) r->outcome = THRESHOLD_BELOW;
     if (b->has_lo && b->lo.velocity == grid_high) r->outcome = THRESHOLD_ABOVE;
     if (r->outcome != THRESHOLD_UNKNOWN) return;
-    warn(r, "study.max_scenes = %d spent before a scene %s was seen", s->plan->max_scenes,
-         b->has_hi ? "below the threshold" : "above the threshold");
+    warn(r, "study.max_scenes spent before a scene %s the threshold was seen", b->has_hi ? "below" : "above");
 }
 
 static void conclude(threshold_search *s, const threshold_bracket *b)
