@@ -21,91 +21,6 @@ static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 
 /* ---- making ---- */
 
-/* Where breech-stress and the sweep of docs/notes/solver.md saw scenes blow up. */
-static double courant_limit(const mpm_scene *s)
-{
-    return s->transfer == MPM_TRANSFER_PIC ? 0.5 : 0.6;
-}
-
-static status check_held(const mpm_body *b)
-{
-    bool moved = false;
-    for (int k = 0; k < 3; k++)
-        moved = moved || b->velocity[k] != 0 || b->spin[k] != 0 || b->body_force[k] != 0 || b->traction[k] != 0;
-    moved = moved || mpm_wave_is_wanted(b);
-    CHECK(!b->held || !moved, STATUS_BAD_INPUT,
-          "body `%s` is held: it can have no velocity, spin, body_force, traction, wave_pressure or piston", b->name);
-    return status_ok();
-}
-
-static status check_body(const mpm_scene *s, int i, int groups)
-{
-    const mpm_body *b = &s->body[i];
-    TRY(base_params_check(mpm_body_params, b, b->name));
-    CHECK(b->material, STATUS_BAD_INPUT, "body `%s` lacks a material", b->name);
-    CHECK(b->solid >= 0 && b->solid < s->solids, STATUS_BAD_INPUT, "body `%s`: solid %d, the scene has %d", b->name,
-          b->solid, s->solids);
-    TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
-    TRY(mpm_wave_check(b));
-    TRY(check_held(b));
-    CHECK(groups <= s->bodies, STATUS_BAD_INPUT, "%d groups of %d bodies: number them from 0 without gaps", groups,
-          s->bodies);
-    for (int k = 0; k < i; k++)
-        CHECK(s->body[k].group != b->group || memcmp(s->body[k].passes, b->passes, sizeof b->passes) == 0,
-              STATUS_BAD_INPUT, "bodies `%s` and `%s` are one group, but different boundaries act on them",
-              s->body[k].name, b->name);
-    for (int k = 0; k < i; k++)
-        CHECK(s->body[k].group != b->group || s->body[k].held == b->held, STATUS_BAD_INPUT,
-              "bodies `%s` and `%s` are one group, but one of them is held: give it a group of its own and a contact",
-              s->body[k].name, b->name);
-    return status_ok();
-}
-
-static status check_pairs(const mpm_scene *s, int groups)
-{
-    TRY(mpm_contact_check(&s->contact));
-    for (int i = 0; i < s->pairs; i++) {
-        const mpm_pair *p = &s->pair[i];
-        CHECK(p->a >= 0 && p->a < groups && p->b >= 0 && p->b < groups && p->a != p->b, STATUS_BAD_INPUT,
-              "pair %d: groups %d and %d must be two of 0 .. %d", i, p->a, p->b, groups - 1);
-        CHECK(p->normal_of == p->a || p->normal_of == p->b, STATUS_BAD_INPUT,
-              "pair %d: the normal of group %d, which is neither %d nor %d", i, p->normal_of, p->a, p->b);
-        TRY(mpm_contact_check(&p->contact));
-        for (int k = 0; k < i; k++)
-            CHECK(s->pair[k].a + s->pair[k].b != p->a + p->b || (s->pair[k].a != p->a && s->pair[k].a != p->b),
-                  STATUS_BAD_INPUT, "pairs %d and %d name the same two groups", k, i);
-    }
-    return status_ok();
-}
-
-static status check_probes(const mpm_scene *s)
-{
-    for (int i = 0; i < s->probes; i++) {
-        TRY(mpm_probe_check(&s->probe[i], s->bodies));
-        for (int j = 0; j < i; j++)
-            CHECK(strcmp(s->probe[i].name, s->probe[j].name) != 0, STATUS_BAD_INPUT, "two probes are named `%s`",
-                  s->probe[i].name);
-    }
-    return status_ok();
-}
-
-static status check_scene(const mpm_scene *s)
-{
-    const int groups = mpm_scene_groups(s);
-    CHECK(s->bodies >= 1 && s->bodies <= MPM_BODIES_COUNTED, STATUS_BAD_INPUT, "%d bodies: must be 1 .. %d", s->bodies,
-          MPM_BODIES_COUNTED);
-    CHECK(s->courant > 0 && s->courant <= courant_limit(s), STATUS_BAD_INPUT,
-          "courant = %g: must be in (0, %g], beyond which %s is not stable", s->courant, courant_limit(s),
-          s->transfer == MPM_TRANSFER_PIC ? "pic"
-          : s->basis == MPM_BASIS_BSPLINE ? "bspline"
-                                          : "no scheme");
-    TRY(base_params_check(&mpm_scene_params[MPM_SCENE_HASHED], s, "scene"));
-    for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i, groups));
-    TRY(check_pairs(s, groups));
-    for (int i = 0; i < s->refines; i++) TRY(mpm_refine_check(&s->refine[i], s->bodies));
-    return check_probes(s);
-}
-
 static void particle_make(double *q, const build_point *p, const law *k, double temperature)
 {
     for (int i = 0; i < 3; i++) {
@@ -155,9 +70,6 @@ static status make_laws(mpm *m)
         m->materials[i] = *s->body[i].material;
         s->body[i].material = &m->materials[i];
         TRY(mpm_law_make(&s->body[i], s, &m->laws[i]));
-        CHECK(!s->body[i].held || m->laws[i].p_start == 0, STATUS_BAD_INPUT,
-              "body `%s` is held: it can have no pressure at the start, and has %g Pa", s->body[i].name,
-              m->laws[i].p_start);
         TRY(mpm_wave_make(&s->body[i], &m->laws[i], &m->waves[i]));
         const mpm_material *k = &m->materials[i];
         m->effusivity[i] = sqrt(k->conductivity * k->density * k->specific_heat);
@@ -293,10 +205,11 @@ void mpm_set_finest(mpm *m, int level)
     m->finest = level;
 }
 
-status mpm_create(const mpm_scene *scene, int threads, mpm **out)
+/* What is refused once points are made is said of what *at names then. */
+static status create(const mpm_scene *scene, int threads, mpm_refused *at, mpm **out)
 {
     *out = NULL;
-    TRY(check_scene(scene));
+    TRY(mpm_check(scene, at));
     const kernels *kernel = mpm_kernels_choose(scene->instruction_set);
     CHECK(kernel, STATUS_BAD_INPUT,
           "instruction set `%s` is unknown or this machine lacks it: use x86-64-v4, x86-64-v3 or portable",
@@ -310,6 +223,7 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
     mpm_scene_levels_fill(&m->scene);
     if (s.code == STATUS_OK) s = fill(m);
     if (s.code != STATUS_OK) {
+        *at = m->refused;
         mpm_free(m);
         return s;
     }
@@ -318,6 +232,36 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
     m->dense = dense_particles(m);
     *out = m;
     return s;
+}
+
+status mpm_create(const mpm_scene *scene, int threads, mpm **out)
+{
+    mpm_refused at;
+    return create(scene, threads, &at, out);
+}
+
+/* A piston's wave that does not arrive. */
+static status check_wave(const mpm_scene *s, int body, mpm_refused *at)
+{
+    law k;
+    mpm_wave w;
+    if (isnan(s->body[body].piston_mass)) return status_ok();
+    *at = (mpm_refused){ MPM_PART_BODY, body, "tube_length" };
+    TRY(mpm_law_make(&s->body[body], s, &k));
+    const status made = mpm_wave_make(&s->body[body], &k, &w);
+    mpm_wave_free(&w);
+    return made;
+}
+
+status mpm_check_made(const mpm_scene *s, int threads, mpm_refused *at)
+{
+    mpm *m = NULL;
+    TRY(mpm_check(s, at));
+    for (int i = 0; i < s->bodies; i++) TRY(check_wave(s, i, at));
+    if (s->cavities > 0) TRY(create(s, threads, at, &m));
+    mpm_free(m);
+    *at = mpm_not_refused;
+    return status_ok();
 }
 
 void mpm_free(mpm *m)

@@ -92,6 +92,38 @@ typedef struct {
     void *user; /* borrowed */
 } mpm_sink;
 
+/* ---- what a scene can be refused for ---- */
+
+/* The scene itself, and its lists. */
+typedef enum {
+    MPM_PART_SCENE,
+    MPM_PART_BODY,
+    MPM_PART_PAIR,
+    MPM_PART_REFINE,
+    MPM_PART_PROBE,
+    MPM_PART_CAVITY,
+    MPM_PARTS
+} mpm_part;
+int mpm_part_entries(const mpm_scene *s, mpm_part part); /* of MPM_PART_SCENE 1 */
+
+/* What an error is about: an entry of a list, and the key of it that is at fault, as a case file has it, or that says
+ * most of it; NULL: the text names it, or there is none. */
+typedef struct {
+    mpm_part part;
+    int entry; /* 0 the first */
+    const char *key;
+} mpm_refused;
+extern const mpm_refused mpm_not_refused;
+
+/* One entry, which needs neither the window nor what comes behind it in its list; then all of them.  mpm_create makes
+ * these checks first.  BASE_STATUS_BAD_INPUT names the value and what it must be; then *at says where. */
+base_status mpm_check_entry(const mpm_scene *s, mpm_part part, int entry, const char **key);
+base_status mpm_check(const mpm_scene *s, mpm_refused *at);
+/* And what shows only when the scene is made: voids of cavities, for which its points are made and freed; does the wave
+ * of a piston arrive? */
+base_status mpm_check_made(const mpm_scene *s, int threads, mpm_refused *at);
+double mpm_courant_limit(mpm_transfer_kind transfer); /* largest mpm_scene.courant [1] */
+
 base_status mpm_create(const mpm_scene *scene, int threads, mpm **out);
 void mpm_free(mpm *m); /* NULL allowed */
 /* Between steps: in mpm_sink too.  Changes no bit of what comes out; 0: as many as OpenMP gives. */

@@ -452,12 +452,17 @@ static void test_held(void **state)
 
 /* ---- what is refused ---- */
 
-static void refused(const mpm_scene *s, const char *words)
+/* By mpm_create, and by the check without it, which says where it is. */
+static void refused_at(const mpm_scene *s, const char *words, mpm_part part, int entry, const char *key)
 {
     mpm *m = NULL;
-    const status is = mpm_create(s, 1, &m);
+    mpm_refused at;
+    const status is = mpm_create(s, 1, &m), checked = mpm_check_made(s, 1, &at);
     assert_int_equal(is.code, STATUS_BAD_INPUT);
     if (!strstr(is.text, words)) fail_msg("not `%s` but `%s`", words, is.text);
+    assert_string_equal(checked.text, is.text);
+    assert_true(at.part == part && at.entry == entry);
+    assert_string_equal(at.key, key);
 }
 
 static void test_refused(void **state)
@@ -467,27 +472,30 @@ static void test_refused(void **state)
     mpm_scene s = { 0 };
     ring_scene(&s, &m, true, 0);
     s.cavity[0].place[0] = 0.42e-3;
-    refused(&s, "there is no void");
+    refused_at(&s, "there is no void", MPM_PART_CAVITY, 0, "place");
     s.cavity[0].place[0] = 0.7e-3;
-    refused(&s, "is open");
+    refused_at(&s, "is open", MPM_PART_CAVITY, 0, "place");
     s.cavity[0].place[0] = 0;
     s.cavity[0].wall = 1;
-    refused(&s, "its wall is body 1");
+    refused_at(&s, "its wall is body 1", MPM_PART_CAVITY, 0, "wall");
     s.cavity[0].wall = 0, s.cavity[0].critical_temperature = 346, s.cavity[0].critical_pressure = 5.09e6;
     s.cavity[0].ambient = 1e7;
-    refused(&s, "has no pressure");
+    refused_at(&s, "has no pressure", MPM_PART_CAVITY, 0, "pressure");
     s.cavity[0].ambient = 1e5, s.levels = 2;
     s.axis[1] = scene_axis(0, 160e-6, 40e-6, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
-    refused(&s, "cells of one size");
+    refused_at(&s, "cells of one size", MPM_PART_SCENE, 0, "levels");
     s.levels = 1;
+    mpm_refused at;
+    assert_ok(mpm_check_made(&s, 1, &at));
+    assert_true(at.key == NULL);
     add_cavity(&s, "again", 0.1e-3, 0.1e-3);
-    refused(&s, "cavity `again` is part of `gas`");
+    refused_at(&s, "cavity `again` is part of `gas`", MPM_PART_CAVITY, 1, "place");
     s.axis[1] = scene_axis(0, 64e-3, 40e-6, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY); /* 1600 cells */
     s.axis[0] = s.axis[2] = s.axis[1];
     s.body[0].solid =
         scene_solid(&s, "minus", NULL, 0, scene_solid(&s, "sphere", (double[]){ 0, 0, 0, 5e-4 }, 4, -1, -1),
                     scene_solid(&s, "sphere", (double[]){ 0, 0, 0, 3e-4 }, 4, -1, -1));
-    refused(&s, "has at most 2147483647");
+    refused_at(&s, "has at most 2147483647", MPM_PART_SCENE, 0, "cavities");
     mpm_scene_free(&s);
 }
 

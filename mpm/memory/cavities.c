@@ -256,20 +256,6 @@ const mpm_cavity_state *mpm_cavity_of(const mpm *m, int cavity)
 
 /* ---- memory ---- */
 
-static status check(const mpm *m)
-{
-    const mpm_scene *s = &m->scene;
-    CHECK(s->cavities <= MPM_MAX_CAVITIES, STATUS_BAD_INPUT, "%d cavities: at most %d", s->cavities, MPM_MAX_CAVITIES);
-    CHECK(m->grids.levels == 1, STATUS_BAD_INPUT,
-          "a scene with cavities has cells of one size: `levels: 1`, and no `refine`");
-    for (int k = 0; k < s->cavities; k++) {
-        TRY(base_params_check(mpm_cavity_params, &s->cavity[k], s->cavity[k].name));
-        CHECK(s->cavity[k].wall < s->bodies, STATUS_BAD_INPUT, "cavity `%s`: its wall is body %d, the scene has %d",
-              s->cavity[k].name, s->cavity[k].wall, s->bodies);
-    }
-    return status_ok();
-}
-
 static status allocate(mpm *m)
 {
     struct mpm_cavities *c = m->cavities = calloc(1, sizeof *c);
@@ -277,6 +263,7 @@ static status allocate(mpm *m)
     c->n = m->scene.cavities;
     double all = 1;
     for (int k = 0; k < 3; k++) all *= c->size[k] = axes(m)[k].last + 2;
+    m->refused = (mpm_refused){ MPM_PART_SCENE, 0, "cavities" };
     CHECK(all <= INT_MAX, STATUS_BAD_INPUT,
           "%.3g cells: a scene with cavities has at most %d, so give it larger ones or a smaller window", all, INT_MAX);
     const size_t cells = (size_t)cells_of(c), n = (size_t)c->n;
@@ -293,6 +280,7 @@ static status begin(mpm *m, int cavity)
     struct mpm_cavities *c = m->cavities;
     const mpm_cavity *is = &m->scene.cavity[cavity];
     int at[3];
+    m->refused = (mpm_refused){ MPM_PART_CAVITY, cavity, "place" };
     for (int k = 0; k < 3; k++) at[k] = mpm_axis_locate(&axes(m)[k], is->place[k]);
     CHECK(inside(m, at) && c->cover[place_of(c, at)] == EMPTY, STATUS_BAD_INPUT,
           "cavity `%s`: there is no void at (%g, %g, %g) m, or no whole cell of it", is->name, is->place[0],
@@ -304,14 +292,14 @@ static status begin(mpm *m, int cavity)
     c->state[cavity] = (mpm_cavity_state){ .burst_time = NAN, .joined = -1 };
     find_void(m, cavity);
     CHECK(!c->state[cavity].open, STATUS_BAD_INPUT,
-          "cavity `%s` is open: its void comes to an end of the window that is no mirror", is->name);
+          "cavity `%s` is open: its void, from (%g, %g, %g) m, comes to an end of the window that is no mirror",
+          is->name, is->place[0], is->place[1], is->place[2]);
     return status_ok();
 }
 
 status mpm_cavities_make(mpm *m)
 {
     if (m->scene.cavities == 0) return status_ok();
-    TRY(check(m));
     TRY(allocate(m));
     struct mpm_cavities *c = m->cavities;
     cover(m);
@@ -320,9 +308,6 @@ status mpm_cavities_make(mpm *m)
     for (int k = 0; k < c->n; k++) {
         const mpm_cavity *is = &m->scene.cavity[k];
         mpm_cavity_state *s = &c->state[k];
-        CHECK(is->pressure + is->ambient > 0 && is->pressure + is->ambient < mpm_gas_condenses(&c->gas[k]),
-              STATUS_BAD_INPUT, "cavity `%s`: its gas has no pressure of %g Pa at %g K", is->name,
-              is->pressure + is->ambient, is->temperature);
         s->volume = s->found;
         s->moles = s->volume / mpm_gas_molar_volume(&c->gas[k], is->pressure + is->ambient);
         set_pressure(m, k);

@@ -249,7 +249,8 @@ struct mpm {
     group_force *force;           /* [groups] */
     mpm_ledger ledger;
     double phase_seconds[MPM_PHASES];
-    uint64_t scene_key; /* of everything that determines a scene */
+    uint64_t scene_key;  /* of everything that determines a scene */
+    mpm_refused refused; /* while it is made: what the check under way is of */
 };
 
 struct kernels {
