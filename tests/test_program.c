@@ -272,6 +272,46 @@ static void test_check_refuses_what_fits_nowhere(void **state)
     assert_true(contains("err.txt", "100 cells a radius") && contains("err.txt", " GB"));
 }
 
+/* What shows only when the scene is made, and nothing is written before. */
+static void test_check_refuses_what_cannot_be_made(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *more, *says;
+    } wrong[] = {
+        { "cavities: [{name: gas, place: 1 1 1 mm}]",
+          "made/case.yaml:7:33: scene.cavities[0].place: cavity `gas`: there is no void at (0.001, 0.001, 0.001) m" },
+        { "cavities: [{name: gas, place: -1 1 1 mm}]",
+          "made/case.yaml:7:33: scene.cavities[0].place: cavity `gas` is open" },
+        { "cavities: [{name: gas, place: 1 1 1 m}]", "made/case.yaml:7:33: scene.cavities[0].place: cavity `gas`: " },
+        { "refine: [{around: wall, within: 1 mm}]\n  cavities: [{name: gas, place: 1 1 1 m}]",
+          "made/case.yaml:7:11: scene.refine: a scene with cavities has cells of one size" },
+        { "bodies: [{name: sea, material: water, piston_mass: 0.01 kg/m2, piston_velocity: 1 m/s, tube_length: 1 m,\n"
+          "    shape: {box: {lo: 0 0 0 mm, hi: 2 4 4 mm}}}]",
+          "made/case.yaml:7:103: scene.bodies[0].tube_length: body `sea`: a tube_length of 1 m would take" },
+    };
+    fresh_folder("made");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char text[1000];
+        const bool own = strncmp(wrong[i].more, "bodies", 6) == 0;
+        snprintf(text, sizeof text, "name: made\nscene:\n  end_time: 1 us\n  cell: 0.5 mm\n%s%s\n  %s\n",
+                 own ? "  # its own\n  # bodies" : "  bodies:\n",
+                 own ? "" : "    - {name: wall, material: ofhc_copper, shape: {box: {lo: 0 0 0 mm, hi: 2 4 4 mm}}}",
+                 wrong[i].more);
+        OK(host_file_write("made/case.yaml", text, strlen(text)));
+        assert_int_equal(run("check made"), 2);
+        if (!contains("err.txt", wrong[i].says)) fail_msg("check does not say %s", wrong[i].says);
+        assert_int_equal(run("scene made -o made/out"), 2);
+        if (!contains("err.txt", wrong[i].says)) fail_msg("scene does not say %s", wrong[i].says);
+        assert_false(exists("made/out"));
+    }
+    /* of a study's scenes too */
+    assert_int_equal(run("check " SHOT " --set scene.transfer=pic --set scene.courant=0.55"), 2);
+    assert_true(contains("err.txt", "--set scene.courant=0.55: scene.courant = 0.55: must be in (0, 0.5]"));
+    assert_int_equal(run("onset " SHOT " --set scene.transfer=pic --set scene.courant=0.55 -o made/out"), 2);
+    assert_false(exists("made/out"));
+}
+
 static void test_materials(void **state)
 {
     (void)state;
@@ -619,6 +659,7 @@ int main(void)
         cmocka_unit_test(test_check),
         cmocka_unit_test(test_check_says_what_a_study_takes),
         cmocka_unit_test(test_check_refuses_what_fits_nowhere),
+        cmocka_unit_test(test_check_refuses_what_cannot_be_made),
         cmocka_unit_test(test_materials),
         cmocka_unit_test(test_flow),
         cmocka_unit_test(test_instruction_set),

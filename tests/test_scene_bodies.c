@@ -32,13 +32,18 @@ static status read_text(const char *text, unsigned needs, breech_case **c, char 
     return case_read_memory(&(case_text){ text, strlen(text), "case.yaml", NULL, 0 }, &how, c, errors);
 }
 
-static breech_case *read_good(const char *text)
+static breech_case *read_good_for(const char *text, unsigned needs)
 {
     breech_case *c = NULL;
     char *errors = NULL;
-    const status s = read_text(text, CASE_FOR_SCENE, &c, &errors);
+    const status s = read_text(text, needs, &c, &errors);
     if (s.code != STATUS_OK) fail_msg("%s\n%s", errors ? errors : s.text, text);
     return c;
+}
+
+static breech_case *read_good(const char *text)
+{
+    return read_good_for(text, CASE_FOR_SCENE);
 }
 
 static char *used_text(const breech_case *c)
@@ -159,7 +164,7 @@ static int keys_come_back(const base_param *table, part_of_scene *part)
         char *want = (char *)part(&c->bodies.scene) + p->offset;
         change(p, want);
         char *text = used_text(c);
-        breech_case *back = read_good(text);
+        breech_case *back = read_good_for(text, 0); /* not every value makes a scene */
         const char *got = (const char *)part(&back->bodies.scene) + p->offset;
         if (memcmp(got, want, bytes_of(p)) != 0) fail_msg("%s is not what was written:\n%s", p->key, text);
         free(text);
@@ -355,6 +360,93 @@ static void test_refused(void **state)
     assert_int_equal(read_text(TWO, CASE_FOR_ONSET, &c, &errors).code, STATUS_BAD_INPUT);
     assert_non_null(strstr(errors, "scene.bodies: a study makes its scenes"));
     free(errors);
+}
+
+/* ---- what the solver refuses: said of the case's keys, before anything is made ---- */
+
+#define BODIES(of_wall, of_ball)                                                                                   \
+    HEAD "  bodies:\n    - {name: wall, material: ofhc_copper, shape: {box: {lo: 0 0 0 mm, hi: 2 4 4 mm}}" of_wall \
+         "}\n    - {name: ball, material: ofhc_copper, shape: {sphere: {center: -1 2 2 mm, radius: 1 mm}}" of_ball \
+         "}\n"
+
+static const struct {
+    const char *text, *error; /* all of it */
+} unmakable[] = {
+    { BODIES(", held: yes, velocity: 0 0 1 m/s", ""),
+      "case.yaml:5:108: scene.bodies[0].velocity = 0 0 1 m/s: body `wall` is held: it can have no velocity, spin, "
+      "body_force, traction, wave_pressure or piston\n" },
+    { BODIES("", ", held: yes, body_force: [0 m/s2, 9.81 m/s2, 0 m/s2]"),
+      "case.yaml:6:118: scene.bodies[1].body_force = [0 m/s2, 9.81 m/s2, 0 m/s2]: body `ball` is held: it can have no "
+      "velocity, spin, body_force, traction, wave_pressure or piston\n" },
+    { BODIES(", pressure: 3 MPa, held: yes", ""),
+      "case.yaml:5:97: scene.bodies[0].pressure = 3 MPa: body `wall` is held: it can have no pressure at the start, "
+      "and has 3e+06 Pa\n" },
+    { BODIES(", pressure: -900 GPa", ""),
+      "case.yaml:5:97: scene.bodies[0].pressure = -900 GPa: body `wall`: at 293 K" },
+    { BODIES(", wave_pressure: 3 MPa", ""),
+      "case.yaml:5:102: scene.bodies[0].wave_pressure = 3 MPa: body `wall` of ofhc_copper: a wave enters fluids only "
+      "(strength: none)\n" },
+    { BODIES(", wave_decay: 3 us", ""),
+      "case.yaml:5:99: scene.bodies[0].wave_decay = 3 us: body `wall`: wave_decay = 3e-06 s, but no wave_pressure\n" },
+    { BODIES(", tube_length: 1 m", ""),
+      "case.yaml:5:100: scene.bodies[0].tube_length = 1 m: body `wall`: a piston wants all of piston_mass, "
+      "piston_velocity and tube_length\n" },
+    { BODIES(", group: a, held: yes", ", group: a"),
+      "case.yaml:6:102: scene.bodies[1].group = a: bodies `wall` and `ball` are one group, but one of them is held: "
+      "give it a group of its own and a contact\n" },
+    { BODIES(", group: a, passes: [-x]", ", group: a"), "case.yaml:6:102: scene.bodies[1].group = a: bodies `wall` and "
+                                                        "`ball` are one group, but different boundaries act "
+                                                        "on them\n" },
+    { TWO "  contacts: [{default: stick}, {between: [wall, ball], law: stick}, {between: [ball, wall], law: stick}]\n",
+      "case.yaml:7:79: scene.contacts[2].between = [ball, wall]: pairs 0 and 1 name the same two groups, 0 and 1: one "
+      "contact is enough for two\n" },
+    { TWO "  transfer: pic\n  courant: 0.55\n",
+      "case.yaml:8:12: scene.courant = 0.55: must be in (0, 0.5], beyond which pic is not stable\n" },
+    { TWO "  levels: 2\n  cavities: [{name: gas, place: -1 0 0 mm}]\n",
+      "case.yaml:7:11: scene.levels = 2: a scene with cavities has cells of one size: `levels: 1`, and no `refine`\n" },
+    { TWO "  cavities: [{name: gas, place: -1 0 0 mm, pressure: -1 MPa}]\n",
+      "case.yaml:7:54: scene.cavities[0].pressure = -1 MPa: cavity `gas`: its gas has no pressure of -898675 Pa at "
+      "293.15 K\n" },
+};
+
+static void test_unmakable(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof unmakable / sizeof *unmakable; i++) {
+        breech_case *c = NULL;
+        char *errors = NULL;
+        if (read_text(unmakable[i].text, CASE_FOR_SCENE, &c, &errors).code != STATUS_BAD_INPUT)
+            fail_msg("case %zu: accepted, not: %s", i, unmakable[i].error);
+        if (strncmp(errors, unmakable[i].error, strlen(unmakable[i].error)) != 0)
+            fail_msg("case %zu: %s\nnot: %s", i, errors, unmakable[i].error);
+        free(errors);
+    }
+    breech_case *c = NULL;
+    char *errors = NULL; /* both, and each at its place */
+    read_text(BODIES(", held: yes, spin: 1 0 0 rad/s", ", wave_decay: 1 us"), CASE_FOR_SCENE, &c, &errors);
+    assert_non_null(strstr(errors, "case.yaml:5:104: scene.bodies[0].spin = "));
+    assert_non_null(strstr(errors, "case.yaml:6:107: scene.bodies[1].wave_decay = "));
+    free(errors);
+}
+
+/* `breech strike` says how fast the piston is; of a scene's own the velocity is wanted. */
+static void test_driven(void **state)
+{
+    (void)state;
+    static const char strike[] = "strike: {projectile: water, velocity: 20 m/s}\n";
+    static const char scene[] = HEAD
+        "  bodies:\n    - " BOX "\n    - {name: water, material: water, shape: {box: {lo: -9 0 0 mm, hi: 0 4 4 mm}},"
+        " piston_mass: 70 kg/m2, tube_length: 1 m}\n";
+    char text[1000];
+    breech_case *c = NULL;
+    char *errors = NULL;
+    assert_int_equal(read_text(scene, CASE_FOR_SCENE, &c, &errors).code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(errors, "scene.bodies[1].piston_mass = 70 kg/m2: body `water`: a piston wants all"));
+    free(errors);
+    snprintf(text, sizeof text, "%s%s", scene, strike);
+    c = read_good(text);
+    assert_true(isnan(c->bodies.scene.body[1].piston_velocity));
+    case_free(c);
 }
 
 /* ---- probes: one of every kind, by its table ---- */
@@ -795,7 +887,8 @@ int main(void)
         cmocka_unit_test(test_keys),        cmocka_unit_test(test_groups),
         cmocka_unit_test(test_every_shape), cmocka_unit_test(test_every_contact),
         cmocka_unit_test(test_old_keys),    cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_refused),     cmocka_unit_test(test_every_probe),
+        cmocka_unit_test(test_refused),     cmocka_unit_test(test_unmakable),
+        cmocka_unit_test(test_driven),      cmocka_unit_test(test_every_probe),
         cmocka_unit_test(test_probe_forms), cmocka_unit_test(test_gouging_as_text),
         cmocka_unit_test(test_run),         cmocka_unit_test(test_samples),
         cmocka_unit_test(test_report),      cmocka_unit_test(test_example),

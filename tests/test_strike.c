@@ -595,6 +595,8 @@ static void test_refused(void **state)
             "mm}' --set 'scene.boundary.y=[absorbing, absorbing]'",
             "turn the plate instead (shape: {turn: {axis: 0 0 1, angle: 30 deg, of: ..}}), or leave out strike.plate");
     refused("scene.end_time=none", "scene.end_time is missing");
+    refused("'scene.bodies[1].held=yes' --set 'scene.bodies[1].velocity=0 0 0 m/s' --set strike.velocity='100 m/s'",
+            "scene.bodies[1].velocity: body `ball` is held"); /* so it cannot fly */
     refused("'scene.window.x={lo: -1.9 mm, hi: 8 mm}'", "reaches 0.00015 m out of the window at scene.window.x.lo");
     refused("'scene.window.x={lo: -4 mm, hi: -0.01 mm}'", "plate lies at x = 0 .. 0.002 m, out of the window");
     refused("'scene.bodies[1].shape={sphere: {center: -0.5 0 0 mm, radius: 1 mm}}'", "ball overlaps plate");

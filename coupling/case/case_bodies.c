@@ -567,6 +567,8 @@ void case_bodies_resolve(case_reader *r)
             case_errors_add(r->errors, node, "scene.bodies[%d].material = %s: %.400s%s", k, b->material->name,
                             enough.text, failure ? " (or set damage: no)" : "");
     }
+    const unsigned scenes = CASE_FOR_BODIES | CASE_FOR_STRIKE | CASE_FOR_TARGETS;
+    if (r->out->given.bodies && r->options->needs & scenes && r->errors->n == 0) case_refused_check(r);
 }
 
 /* ---- writing ---- */

@@ -33,6 +33,9 @@ bool case_solid_read(case_reader *r, const tree_node *node, const char *path, mp
 /* In one line of flow style. */
 void case_solid_write(const mpm_solid *root, FILE *file);
 
+/* Once the materials are loaded and nothing was wrong: what the solver refuses of a scene (mpm_check_entry). */
+void case_refused_check(case_reader *r);
+
 /* Refuses bodies that fill the same place; list: the entries of scene.bodies. */
 void case_overlap_check(case_reader *r, const tree_node *list);
 

@@ -2,6 +2,7 @@
 /* What no single value of a case can say. */
 #include "coupling/case/case_reader.h"
 #include "coupling/case/material_role.h"
+#include "mpm/mpm.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -232,6 +233,17 @@ static void check_lengths(case_reader *r)
          "must lie above the armature's initial velocity");
 }
 
+/* Of scenes that a study makes; of one with bodies the solver's own check says it (case_refused.c). */
+static void check_courant(case_reader *r)
+{
+    const case_scene *s = &r->out->scene;
+    const double most = mpm_courant_limit(s->transfer);
+    char text[100];
+    snprintf(text, sizeof text, "must be in (0, %g], beyond which %s is not stable", most,
+             mpm_transfer_names[s->transfer]);
+    must(r, r->out->given.bodies || !(s->courant > most), "scene", "courant", text);
+}
+
 static void check_site(case_reader *r, const case_site *site, const tree_node *node, int k)
 {
     const tree_node *position = host_tree_find(node, "position");
@@ -392,6 +404,7 @@ void case_check_whole(case_reader *r)
         need_key(r, "particle", "radius", "m");
     }
     check_lengths(r);
+    check_courant(r);
     check_shape(r, host_tree_find(r->root, "particle"), r->out->particle.shape, "particle");
     for (int k = 0; k < r->out->sites.n; k++) {
         char path[32];

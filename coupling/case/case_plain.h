@@ -7,6 +7,7 @@
 #define BREECH_COUPLING_CASE_PLAIN_H
 
 #include "coupling/case/case_sections.h"
+#include "mpm/mpm.h"
 
 #include <stdio.h>
 
@@ -108,6 +109,9 @@ double case_life_carried(const mpm_material *m, const char **by);
 
 /* The place in the case of what a message is about, before the message: case_place.h. */
 void case_inputs_place(const case_inputs *in, const char *message, char *out, size_t size);
+
+/* What the solver refuses of a scene of bodies, said of the case's keys: "scene.bodies[1].held: why". */
+void case_refused_text(const mpm_refused *at, const char *why, char *out, size_t size);
 
 /* used.yaml: case_write_used, with what the program has decided of the bodies' scene since. */
 status case_inputs_write(const case_inputs *in, FILE *file);

@@ -6,6 +6,7 @@
 #include "coupling/host/machine.h"
 #include "coupling/host/progress.h"
 #include "coupling/scene/scene_fill.h"
+#include "coupling/scene/scene_possible.h"
 #include "coupling/strike/arrival.h"
 #include "coupling/study/sampling/population.h"
 #include "coupling/study/search/family.h"
@@ -29,7 +30,7 @@ static status needs_of(const mpm_scene *s, mpm_needs *needs, size_t *largest)
 }
 
 /* Can its scene be built? */
-static status scene_possible(const case_impact *c, size_t *largest)
+static status impact_possible(const case_impact *c, size_t *largest)
 {
     gouge_scene scene;
     mpm_needs needs;
@@ -62,8 +63,8 @@ static status grain_possible(const case_onset *c, const case_site *grain, size_t
 {
     const case_impact coarse = slowest(c, grain, c->study.coarse_cells_per_radius),
                       fine = slowest(c, grain, c->study.fine_cells_per_radius);
-    TRY(scene_possible(&coarse, largest));
-    return fine.scene.cells_per_radius == coarse.scene.cells_per_radius ? status_ok() : scene_possible(&fine, largest);
+    TRY(impact_possible(&coarse, largest));
+    return fine.scene.cells_per_radius == coarse.scene.cells_per_radius ? status_ok() : impact_possible(&fine, largest);
 }
 
 static bool same(double a, double b)
@@ -145,6 +146,7 @@ status study_possible(const case_inputs *in, unsigned needs, size_t *largest)
         CHECK(bodies.empty < 0, STATUS_BAD_INPUT,
               "scene.bodies[%d].shape: nothing of %s is left: not one point, of cells as large as these", bodies.empty,
               in->bodies.scene.body[bodies.empty].name);
+        if ((needs & (CASE_FOR_SCENE | CASE_FOR_STRIKE)) == CASE_FOR_SCENE) TRY(scene_possible(&in->bodies.scene));
     }
     const case_onset *c = &in->onset;
     circuit_rail_section section;
@@ -152,7 +154,7 @@ status study_possible(const case_inputs *in, unsigned needs, size_t *largest)
     if (needs & CASE_FOR_INDUCTANCE) TRY(circuit_rails_section(&c->launcher.rails, &section));
     if (shoots) TRY(circuit_rails_check(&c->launcher.rails));
     if (shoots) TRY(circuit_shot_check(&c->launcher));
-    if ((needs & CASE_FOR_SCENE) && !in->given.bodies) TRY(scene_possible(&c->impact, largest));
+    if ((needs & CASE_FOR_SCENE) && !in->given.bodies) TRY(impact_possible(&c->impact, largest));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c, largest));
     return needs & CASE_FOR_COMPARE ? treatments_possible(c, &in->treatments, shoots, largest) : status_ok();
 }

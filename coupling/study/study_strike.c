@@ -5,6 +5,7 @@
 #include "coupling/gouge/session_shot.h"
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
+#include "coupling/scene/scene_possible.h"
 #include "coupling/study/firing_found.h"
 #include "coupling/study/scene_doubts.h"
 #include "coupling/study/strike.h"
@@ -145,7 +146,8 @@ static status possible(const study_case *of)
         TRY(circuit_firing_check(&flight.launcher, &wish));
     }
     if (in->strike.limit) TRY(study_strike_limit_possible(&in->onset.study));
-    const status made = strike_scene(in, &p, 1.0, &bodies);
+    status made = strike_scene(in, &p, 1.0, &bodies);
+    if (made.code == STATUS_OK) made = scene_possible(&bodies.scene);
     mpm_scene_free(&bodies.scene);
     return made;
 }
