@@ -15,7 +15,8 @@
  * what it had.  Two that meet become one, with the holes of both.  Moles come in by `feed`.  The cavity has burst when
  * the intact points of `wall` no longer lie between it and an end of the window that is no mirror, by a flood through
  * all else: by their damage, not by gaps between them.  Then gas leaves through `hole`, as through an orifice; where
- * the void itself comes to the window's end, it is all gone.
+ * the void itself comes to the window's end, the cavity is open: its gas has no pressure any more, and moles are only
+ * counted, as they came in and left through the hole.
  * Moles and volume are those of the model as computed; the grid has one level. */
 #ifndef BREECH_MPM_CAVITY_H
 #define BREECH_MPM_CAVITY_H

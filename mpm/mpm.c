@@ -569,7 +569,9 @@ static status one_substep(mpm *m, int n, tally *sum)
     TRY(mpm_cavities_reserve(m));
     TRY(begin_waves(m, n));
     phase_p2g(m), lap(m, MPM_PHASE_P2G, &clock);
-    phase_nodes(m), mpm_cavities_step(m), lap(m, MPM_PHASE_NODES, &clock);
+    phase_nodes(m);
+    TRY(mpm_cavities_step(m));
+    lap(m, MPM_PHASE_NODES, &clock);
     phase_g2p(m), lap(m, MPM_PHASE_G2P, &clock);
     TRY(collect(m, sum));
     lap(m, MPM_PHASE_REST, &clock);

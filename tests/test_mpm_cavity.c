@@ -45,13 +45,13 @@ static void test_plug(void **state)
         before = now;
     }
     const mpm_ledger l = mpm_balance(solver);
-    double read[6];
+    double read[7];
     mpm_probe *probe;
     assert_ok(mpm_scene_add_probe(&s, "cavity", "p", &probe));
     assert_ok(mpm_probe_read(solver, probe, read));
     assert_near(read[0] + p, n * R * 300 / read[1], 1e-9 * p);
     assert_near(read[3], n, 1e-12 * n);
-    assert_true(read[4] == 0 && read[5] == 0);
+    assert_true(read[4] == 0 && read[5] == 0 && read[6] == 0);
     print_message("plug: period %.4f of the closed one, energy %.1e\n", (crossed[2] - crossed[0]) / period,
                   l.energy_error);
     assert_int_equal(crossings, 3);
@@ -450,6 +450,63 @@ static void test_held(void **state)
     mpm_scene_free(&s);
 }
 
+/* A plug on gas that fills what lies behind it, in a bar of 10 mm whose upper end is free. */
+static void plug_scene(mpm_scene *s, const mpm_material *m, double velocity)
+{
+    scene_bar(s, 0, 10e-3, 0.5e-3, 2);
+    s->axis[0].boundary[0] = MPM_BOUNDARY_SYMMETRY;
+    scene_box(s, 4e-3, -1, -1, 6e-3, 1, 1, m)->velocity[0] = velocity;
+    add_cavity(s, "gas", 1e-3, 1e-9);
+}
+
+/* The plug flies off through the window's end: the gas presses on nothing any more, and the probe says why. */
+static void test_open(void **state)
+{
+    (void)state;
+    const mpm_material m = scene_elastic();
+    mpm_scene s = { 0 };
+    mpm_probe *probe;
+    double read[7];
+    plug_scene(&s, &m, 1500);
+    assert_ok(mpm_scene_add_probe(&s, "cavity", "p", &probe));
+    mpm *solver = scene_make(&s, 1);
+    const mpm_cavity_state *g = mpm_cavity_of(solver, 0);
+    const double n = g->moles;
+    for (int i = 0; i < 100 && !g->open; i++) {
+        assert_ok(mpm_probe_read(solver, probe, read));
+        assert_true(read[6] == 0);
+        scene_steps(solver, 5);
+    }
+    scene_steps(solver, 5);
+    assert_ok(mpm_probe_read(solver, probe, read));
+    assert_true(g->open && read[6] == 1 && read[0] == 0 && read[3] == n && read[4] == 0);
+    mpm_free(solver);
+    mpm_scene_free(&s);
+}
+
+/* What takes out more gas than there is ends the scene, and says when and why. */
+static void test_emptied(void **state)
+{
+    (void)state;
+    const mpm_material m = scene_elastic();
+    mpm_scene s = { 0 };
+    plug_scene(&s, &m, 0);
+    mpm *solver = scene_make(&s, 1);
+    const double n = mpm_cavity_of(solver, 0)->moles;
+    mpm_free(solver);
+    s.cavity[0].feed = -n / 2e-6;
+    solver = scene_make(&s, 1);
+    assert_ok(mpm_advance(solver, 1.5e-6, NULL));
+    assert_near(mpm_cavity_of(solver, 0)->moles / n, 0.25, 0.05);
+    const status over = mpm_advance(solver, 3e-6, NULL);
+    assert_int_equal(over.code, STATUS_NUMERICAL);
+    const double at = mpm_glance(solver).time;
+    assert_true(at > 1.8e-6 && at < 2.1e-6);
+    assert_non_null(strstr(over.text, "cavity `gas` has no gas left: its feed = -"));
+    mpm_free(solver);
+    mpm_scene_free(&s);
+}
+
 /* ---- what is refused ---- */
 
 /* By mpm_create, and by the check without it, which says where it is. */
@@ -507,7 +564,8 @@ int main(void)
         cmocka_unit_test(test_shell),     cmocka_unit_test(test_meet),
         cmocka_unit_test(test_chain),     cmocka_unit_test(test_burst_and_joined),
         cmocka_unit_test(test_same_bits), cmocka_unit_test(test_held),
-        cmocka_unit_test(test_mirrored),  cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_mirrored),  cmocka_unit_test(test_open),
+        cmocka_unit_test(test_emptied),   cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

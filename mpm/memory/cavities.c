@@ -227,7 +227,22 @@ static void set_pressure(const mpm *m, int cavity)
         some ? mpm_gas_pressure(&m->cavities->gas[cavity], s->volume / s->moles) - m->scene.cavity[cavity].ambient : 0;
 }
 
-void mpm_cavities_step(mpm *m)
+/* What a step's feed brings, or takes out where it is negative. */
+static status feed(mpm *m, int cavity)
+{
+    mpm_cavity_state *s = &m->cavities->state[cavity];
+    const mpm_cavity *is = &m->scene.cavity[cavity];
+    if (s->joined >= 0) s = &m->cavities->state[s->joined];
+    s->moles += m->dt * is->feed;
+    CHECK(
+        is->feed >= 0 || s->moles > 0, STATUS_NUMERICAL,
+        "t = %g s: cavity `%s` has no gas left: its feed = %g mol/s has taken out all of it; end the scene before, or "
+        "take out less",
+        m->time, is->name, is->feed);
+    return status_ok();
+}
+
+status mpm_cavities_step(mpm *m)
 {
     struct mpm_cavities *c = m->cavities;
     for (int k = 0; c && k < c->n; k++) {
@@ -237,8 +252,7 @@ void mpm_cavities_step(mpm *m)
         for (int i = 0; i < m->site_count; i++) swept += c->swept[m->site_list[i] * c->n + k];
         m->ledger.work_external += s->pressure * swept;
         s->volume += swept;
-        mpm_cavity_state *gets = s->joined < 0 ? s : &c->state[s->joined];
-        gets->moles += m->dt * is->feed;
+        TRY(feed(m, k));
         if (s->open_hole > 0) {
             const mpm_orifice hole = { s->open_hole, is->discharge, is->gas_gamma, is->molar_mass };
             const double flow = mpm_gas_flow(&hole, is->temperature, s->pressure + is->ambient, is->ambient);
@@ -247,6 +261,7 @@ void mpm_cavities_step(mpm *m)
         }
     }
     for (int k = 0; c && k < c->n; k++) set_pressure(m, k);
+    return status_ok();
 }
 
 const mpm_cavity_state *mpm_cavity_of(const mpm *m, int cavity)

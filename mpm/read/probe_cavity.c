@@ -12,7 +12,7 @@ static const base_param params[] = {
     PARAMS_END,
 };
 
-enum { PRESSURE, VOLUME, FOUND, MOLES, LOST, BURST, COLUMNS };
+enum { PRESSURE, VOLUME, FOUND, MOLES, LOST, BURST, OPEN, COLUMNS };
 
 static const mpm_column columns[COLUMNS + 1] = {
     { "pressure", "Pa", "of its gas, above the ambient one; 0 once it is part of another" },
@@ -21,6 +21,8 @@ static const mpm_column columns[COLUMNS + 1] = {
     { "moles", "mol", "of gas in it" },
     { "lost", "mol", "gas that has left" },
     { "burst", "1", "1 from when it has burst" },
+    { "open", "1",
+      "1 while its void comes to the window's end: its gas, whose moles are still counted, has no pressure" },
     { NULL, NULL, NULL },
 };
 
@@ -38,7 +40,7 @@ static status read(const mpm *m, const mpm_probe *p, double *out)
     if (k >= m->scene.cavities) return status_ok();
     const mpm_cavity_state *s = mpm_cavity_of(m, k);
     out[PRESSURE] = s->pressure, out[VOLUME] = s->volume, out[FOUND] = s->found;
-    out[MOLES] = s->moles, out[LOST] = s->lost, out[BURST] = isnan(s->burst_time) ? 0 : 1;
+    out[MOLES] = s->moles, out[LOST] = s->lost, out[BURST] = isnan(s->burst_time) ? 0 : 1, out[OPEN] = s->open;
     return status_ok();
 }
 
