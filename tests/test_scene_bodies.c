@@ -313,6 +313,10 @@ static const struct {
     { HEAD "  bodies: [{name: a, material: nickel, shape: {box: {lo: 0 0 0 mm, hi: 1 0 1 mm}}}]\n", "hi along y" },
     { HEAD "  bodies: [{name: a, material: nickel, shape: {minus: [{sphere: {center: 0 0 0 mm, radius: 1 mm}}]}}]\n",
       "is made of at least 2 solids" },
+    { HEAD "  bodies:\n    - " BOX
+           "\n    - {name: a, material: nickel, shape: {repeat: {pitch: 0.1 0.1 0.1 mm, count: 100 "
+           "100 100, of: {sphere: {center: -9 0 0 mm, radius: 5 mm}}}}}\n",
+      "case.yaml:6:59: scene.bodies[1].shape.repeat.pitch = 0.0001 0.0001 0.0001 m: so many copies overlap" },
     { HEAD "  bodies: [{name: a b, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: 1 mm}}}]\n",
       "letters, digits" },
     { TWO "  contacts: [{default: glue}]\n", "case.yaml:7:24: unknown law of contact `glue`" },

@@ -491,6 +491,17 @@ static void test_refused(void **state)
         refused(faults[i].node.kind, faults[i].node.value, faults[i].node.n, faults[i].word);
     mpm_solid tree[NODES];
     const mpm_solid *root = plant(&examples[EXAMPLES - 1], tree);
+    const mpm_solid *const repeat = root - 1; /* under the turn */
+    double *pitch = mpm_solid_value(&tree[repeat - tree], "pitch"),
+           *count = mpm_solid_value(&tree[repeat - tree], "count");
+    assert_true(mpm_solid_looks(root) == 4 * mpm_solid_looks(repeat - 1)); /* 2 x 2 copies */
+    pitch[0] = pitch[1] = pitch[2] = 0.01,
+    count[0] = count[1] = count[2] = 100; /* copies on copies, deep in the tree */
+    const status many = mpm_solid_check(root, (int)(root - tree));
+    assert_int_equal(many.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(many.text, "repeat.pitch = 0.01 0.01 0.01 m: so many copies overlap"));
+    pitch[0] = pitch[1] = pitch[2] = 2;
+    assert_int_equal(mpm_solid_check(root, (int)(root - tree)).code, STATUS_OK); /* as many, side by side */
     tree[root - tree].part[0] = (int)(root - tree) + 1;
     assert_int_equal(mpm_solid_check(root, (int)(root - tree)).code, STATUS_BAD_INPUT);
     tree[root - tree].part[0] = -1;

@@ -16,6 +16,17 @@ static const tree_node *parts_of(const tree_node *value)
     return value->kind == TREE_LIST ? value : host_tree_find(value, "of");
 }
 
+/* The key that an error names behind the solid's path, where the file gives it. */
+static const tree_node *named_key(const tree_node *value, const char *path, const char *error)
+{
+    char key[CASE_KEY_SIZE];
+    const size_t n = strlen(path);
+    if (strncmp(error, path, n) != 0 || error[n] != '.') return value;
+    snprintf(key, sizeof key, "%.*s", (int)strcspn(error + n + 1, " :"), error + n + 1);
+    const tree_node *node = host_tree_find(value, key);
+    return node ? node : value;
+}
+
 /* The node of this kind with its values, made of the nodes a and b. */
 static bool add(case_reader *r, const tree_node *where, const char *path, const mpm_solid *made, const int part[2],
                 mpm_scene *s, int *root)
@@ -27,7 +38,7 @@ static bool add(case_reader *r, const tree_node *where, const char *path, const 
         *root = s->solids - 1;
         if (made->kind->check) done = made->kind->check(added, path);
     }
-    if (done.code != STATUS_OK) case_errors_add(r->errors, where, "%.400s", done.text);
+    if (done.code != STATUS_OK) case_errors_add(r->errors, named_key(where, path, done.text), "%.400s", done.text);
     return done.code == STATUS_OK;
 }
 

@@ -2,7 +2,7 @@
 /* Repeat: copies of a solid at equal distances along the axes, the first where it stands: lattices.
  *
  * A copy that begins more than a pitch beyond x is farther from x than the copy between them.  So only the copies whose
- * bounds hold x, and the next on either side, are evaluated along each axis. */
+ * bounds hold x, and the next on either side, are evaluated along each axis: of copies that overlap, all that do. */
 #include "mpm/shape/shape.h"
 
 typedef struct {
@@ -49,8 +49,25 @@ static void bounds(const mpm_solid *s, double lo[3], double hi[3])
     }
 }
 
+/* Copies along axis k that range takes at most. */
+static double most_copies(const repeat *r, int k, double extent)
+{
+    return r->count[k] == 1.0 ? 1.0 : fmin(r->count[k], ceil(extent / fabs(r->pitch[k])) + 2.0);
+}
+
+static double looks(const mpm_solid *s)
+{
+    const repeat *r = SHAPE_VALUES(repeat, s);
+    const mpm_solid *part = mpm_solid_part(s, 0);
+    double lo[3], hi[3], n = mpm_solid_looks(part);
+    mpm_solid_bounds(part, lo, hi);
+    for (int k = 0; k < 3; k++) n *= most_copies(r, k, hi[k] - lo[k]);
+    return n;
+}
+
 static status check(const mpm_solid *s, const char *name)
 {
+    static const double MOST_LOOKS = 10000.0;
     const repeat *r = SHAPE_VALUES(repeat, s);
     for (int k = 0; k < 3; k++) {
         const double n = r->count[k];
@@ -58,13 +75,22 @@ static status check(const mpm_solid *s, const char *name)
         CHECK(n == 1.0 || r->pitch[k] != 0.0, STATUS_BAD_INPUT, "%s.pitch along %c = 0 m: %g copies must stand apart",
               name, "xyz"[k], n);
     }
+    const double n = s->part[0] > 0 ? looks(s) : 0.0;
+    CHECK(n <= MOST_LOOKS, STATUS_BAD_INPUT,
+          "%s.pitch = %g %g %g m: so many copies overlap that up to %.3g shapes would be looked at for one place, at "
+          "most "
+          "%g: give a larger pitch or a smaller count",
+          name, r->pitch[0], r->pitch[1], r->pitch[2], n, MOST_LOOKS);
     return status_ok();
 }
 
-const mpm_solid_kind mpm_shape_repeat = { .name = "repeat",
-                                          .doc = "copies of a solid at equal distances along the axes",
-                                          .params = params,
-                                          .parts = 1,
-                                          .inside = inside,
-                                          .bounds = bounds,
-                                          .check = check };
+const mpm_solid_kind mpm_shape_repeat = {
+    .name = "repeat",
+    .doc = "copies of a solid at equal distances along the axes; where they overlap, at most 10000 shapes at a place",
+    .params = params,
+    .parts = 1,
+    .inside = inside,
+    .bounds = bounds,
+    .check = check,
+    .looks = looks
+};

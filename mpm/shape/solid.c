@@ -67,15 +67,27 @@ void mpm_solid_bounds(const mpm_solid *s, double lo[3], double hi[3])
     s->kind->bounds(s, lo, hi);
 }
 
+double mpm_solid_looks(const mpm_solid *s)
+{
+    if (s->kind->looks) return s->kind->looks(s);
+    double sum = s->kind->parts == 0;
+    for (int i = 0; i < s->kind->parts; i++) sum += mpm_solid_looks(mpm_solid_part(s, i));
+    return sum;
+}
+
+/* Its parts first: what a kind checks may look at them, where it has them. */
 status mpm_solid_check(const mpm_solid *s, int place)
 {
     CHECK(s->kind, STATUS_BAD_INPUT, "solid %d is of no kind", place);
     TRY(base_params_check(s->kind->params, s->value, s->kind->name));
-    if (s->kind->check) TRY(s->kind->check(s, s->kind->name));
-    for (int i = 0; i < s->kind->parts; i++) {
+    for (int i = 0; i < s->kind->parts && s->part[i] != 0; i++) {
         CHECK(s->part[i] > 0 && s->part[i] <= place, STATUS_BAD_INPUT,
               "%s: part %d must be one of the %d solids before it", s->kind->name, i + 1, place);
         TRY(mpm_solid_check(mpm_solid_part(s, i), place - s->part[i]));
     }
+    if (s->kind->check) TRY(s->kind->check(s, s->kind->name));
+    for (int i = 0; i < s->kind->parts; i++)
+        CHECK(s->part[i] != 0, STATUS_BAD_INPUT, "%s: part %d must be one of the %d solids before it", s->kind->name,
+              i + 1, place);
     return status_ok();
 }

@@ -38,6 +38,7 @@ typedef struct {
     double (*inside)(const mpm_solid *s, const double x[3]);        /* signed distance [m] */
     void (*bounds)(const mpm_solid *s, double lo[3], double hi[3]); /* [m] */
     base_status (*check)(const mpm_solid *s, const char *name);     /* checks beyond the table's ranges; NULL: none */
+    double (*looks)(const mpm_solid *s); /* mpm_solid_looks; NULL: one at each of its parts, itself without any */
 } mpm_solid_kind;
 
 struct mpm_solid {
@@ -65,6 +66,8 @@ const mpm_solid *mpm_solid_part(const mpm_solid *s, int i);
 double mpm_solid_inside(const mpm_solid *s, const double x[3]);
 void mpm_solid_bounds(const mpm_solid *s, double lo[3], double hi[3]);
 base_status mpm_solid_check(const mpm_solid *s, int place);
+/* Shapes that mpm_solid_inside looks at for one place, at most. */
+double mpm_solid_looks(const mpm_solid *s);
 
 #ifdef __cplusplus
 }
