@@ -32,8 +32,14 @@ static void test_shown_or_not(void **state)
     assert_true(plain.hit.result.end_time == shown.hit.result.end_time);
     assert_true(plain.hit.result.severity == shown.hit.result.severity);
     assert_int_equal(shown.snapshots, 1 + (int)(shown.hit.result.end_time / (11e-6 / 19.0)) + 1);
+    const run_counted once = run_small(settles, false, "output.snapshots=1", &some),
+                      twice = run_small(settles, false, "output.snapshots=2", &some);
+    assert_int_equal(once.snapshots, 1);
+    assert_int_equal(twice.snapshots, 2);
     OK(output_history_close(plain.rows));
     OK(output_history_close(shown.rows));
+    OK(output_history_close(once.rows));
+    OK(output_history_close(twice.rows));
 }
 
 int main(void)

@@ -379,7 +379,8 @@ static const base_param life_point_params[] = {
 };
 
 static const base_param output_params[] = {
-    PARAM_INT(case_output, snapshots, 20, 0, 10000, "of a scene, evenly over its time; 0 = none"),
+    PARAM_INT(case_output, snapshots, 20, 0, 10000,
+              "of a scene, evenly over its time, from its start to its end; 1: of its end; 0 = none"),
     PARAM_DOUBLE(case_output, history_interval, "s", OPTIONAL, 1e-9, 1.0,
                  "least time between two samples of the shot's history; not given: every step"),
     PARAM_DOUBLE(case_output, checkpoint_interval, "s", 60.0, 1.0, 1e6,

@@ -401,7 +401,7 @@ typedef struct {
 } case_targets;
 
 typedef struct {
-    int snapshots;              /* of one scene, evenly over its time; 0 = none */
+    int snapshots;              /* of one scene, evenly over its time, 1: of its end; 0 = none */
     double history_interval;    /* least time between two samples of the shot's history [s]; NAN: every step */
     double checkpoint_interval; /* wall time between two checkpoints [s] */
     bool report;                /* write report.html */

@@ -20,6 +20,7 @@ typedef struct {
     snapshots *shots;
     int series;                      /* of the history, -1: none */
     int gaps, gaps_over;             /* between snapshots, 0: none are wanted; whose end has one */
+    bool shows_start;                /* a single one is of the end */
     double shown;                    /* time of the last of them [s] */
     double started, save_at, looked; /* wall clock [s] */
     double aside;                    /* of the piece under way, for snapshots and checkpoints [s] */
@@ -196,7 +197,7 @@ static status advance(run *r)
     if (!r->from.image) {
         TRY(ask_watch(r, &over));
         TRY(write_row(r));
-        TRY(write_snapshot(r));
+        if (r->shows_start) TRY(write_snapshot(r));
     }
     while (piece < PIECES && !over) {
         TRY(advance_piece(r, piece));
@@ -251,11 +252,12 @@ static const shelved_scene *find_shelved(const run *r)
 
 /* ---- setting up ---- */
 
-/* Snapshots are evenly apart, the first of the start, the last of the end. */
+/* Snapshots are evenly apart, the first of the start, the last of the end, which a single one is of. */
 static void plan_snapshots(run *r)
 {
     const int n = r->job->snapshots;
     if (n > 0 && (r->host->dir || r->host->sink)) r->gaps = n > 1 ? n - 1 : 1;
+    r->shows_start = n > 1;
 }
 
 static status open_snapshots(run *r, double reached)
@@ -294,7 +296,7 @@ static status take_up(run *r)
         if (r->host->history) TRY(output_history_import(r->host->history, r->job->name, shelved->rows));
     }
     TRY(open_output(r));
-    if (shelved) TRY(write_snapshot(r));
+    if (shelved && r->shows_start) TRY(write_snapshot(r));
     return r->from.image ? scene_image_take_up(&r->from, r->job->watch, r->m) : status_ok();
 }
 

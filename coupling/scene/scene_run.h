@@ -70,7 +70,7 @@ typedef struct {
     const char *task;           /* for people: "scene 3, 1480 m/s" */
     const mpm_scene *scene;     /* borrowed, like all pointers here */
     const scene_watch *watch;   /* NULL: none */
-    int snapshots;              /* evenly over its time; 0: none */
+    int snapshots;              /* evenly over its time, from its start to its end; 1: of its end; 0: none */
     double checkpoint_interval; /* wall time [s]; 0: after every step */
     int force_on;               /* group whose contact force the history has */
     double last_time;           /* when it will be over, for all that is known before, for the progress line [s] */
