@@ -103,8 +103,7 @@ static status check_start(const mpm_scene *s, const mpm_body *b, const char **ke
     mpm_body at_rest = *b;
     law k;
     at_rest.pressure = NAN;
-    *key = "pressure";
-    if (isnan(b->pressure) || mpm_law_make(&at_rest, s, &k).code != STATUS_OK) *key = "material";
+    *key = mpm_law_make(&at_rest, s, &k).code == STATUS_OK ? "pressure" : "material";
     TRY(mpm_law_make(b, s, &k));
     if (isnan(b->pressure)) *key = "held";
     CHECK(!b->held || k.p_start == 0, STATUS_BAD_INPUT,
