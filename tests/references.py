@@ -14,7 +14,7 @@ PATH = re.compile(rf"(?<![\w/.$}}-])((?:{FOLDERS})/[\w<>*./-]*[\w*>]\.[a-z]{{1,5
 ALONE = re.compile(r"(?<![\w/.$}\"'>*-])([a-z][a-z0-9_]*\.(?:c|h|def|md|cmake))\b(?!\()")
 TEST = re.compile(r"(?<![\w/])(test_[a-z]\w*)(?![\w(.<*])")
 # What a build or a run makes, and other projects' files.
-MADE = {"coupling/solver_id.h", "solver_id.h", "version.h", "case-keys.md", "setjmp.h", "stdarg.h", "cmocka.h", "cmath.h"}
+MADE = {"coupling/solver_id.h", "solver_id.h", "version.h", "setjmp.h", "stdarg.h", "cmocka.h", "cmath.h"}
 
 
 def tracked():

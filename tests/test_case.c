@@ -16,6 +16,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "manual_common.h"
+
 #define SMALL_CASE BREECH_TESTS "/data/case_small.yaml"
 
 static const char *const material_dirs[] = { BREECH_TESTS "/../cases/materials" };
@@ -767,23 +769,14 @@ static void texts_survive_quoting(void **state)
 static void manual_is_up_to_date(void **state)
 {
     (void)state;
-    static const char start[] = "<!-- keys: written by case_print_keys; do not edit below -->\n";
     char *keys = NULL;
     size_t size = 0;
     FILE *file = open_memstream(&keys, &size);
     assert_non_null(file);
     case_print_keys(file);
     fclose(file);
-    FILE *copy = fopen("case-keys.md", "w"); /* to paste from */
-    if (copy) {
-        fputs(keys, copy);
-        fclose(copy);
-    }
-    char *manual = read_file(BREECH_TESTS "/../docs/reference/case-files.md");
-    const char *at = strstr(manual, start);
-    assert_non_null(at);
-    assert_string_equal(at + strlen(start), keys);
-    free(manual);
+    manual_holds(BREECH_TESTS "/../docs/reference/case-files.md",
+                 "<!-- keys: written by case_print_keys; do not edit below -->", NULL, keys);
     free(keys);
 }
 
