@@ -32,7 +32,7 @@ static breech_case *case_of(const char *name)
     return c;
 }
 
-/* Each kind of supply is in one of them. */
+/* Each kind of supply is in one of them: a new kind has a case of its own in cases/. */
 static const char *const names[] = { "inductive_store", "homopolar", "alternator", "current_profile", "distributed" };
 
 static void cases_run(void **state)
@@ -50,12 +50,15 @@ static void cases_run(void **state)
         print_message("%-16s %.0f m/s, energy error %.1e\n", names[k], circuit_shot_result(s).muzzle_velocity,
                       notes.worst_error);
         assert_int_equal(notes.count[CIRCUIT_SHOT_MUZZLE], 1);
-        assert_true(notes.worst_error < 1e-6); /* ARCHITECTURE's bound at the default tolerances */
+        assert_true(notes.worst_error < 1e-6); /* README's bound at the default tolerances */
         for (int i = 0; i < CIRCUIT_SUPPLY_KINDS; i++) kinds[i] = kinds[i] || config.supplies[i].n > 0;
         circuit_shot_free(s);
         case_free(c);
     }
-    for (int i = 0; i < CIRCUIT_SUPPLY_KINDS; i++) assert_true(kinds[i]); /* a case a kind */
+    for (int i = 0; i < CIRCUIT_SUPPLY_KINDS; i++)
+        if (!kinds[i])
+            fail_msg("no case has `%s`: add one to cases/, and its name to those of tests/test_cases_supplies.c",
+                     circuit_supply_sections[i]);
 }
 
 /* ---- the report's table ---- */

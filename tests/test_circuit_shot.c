@@ -85,7 +85,7 @@ static circuit_shot *run(const circuit_shot_config *c)
     const circuit_shot_sink sink = notebook();
     OK(circuit_shot_create(c, &s));
     OK(circuit_shot_advance(s, INFINITY, &sink));
-    assert_true(rec.worst_energy < 1e-6); /* ARCHITECTURE's bound at the default tolerances */
+    assert_true(rec.worst_energy < 1e-6); /* README's bound at the default tolerances */
     assert_true(rec.n <= 4 * c->supplies[CIRCUIT_SUPPLY_capacitor].n + c->n_sites + 16); /* no chatter */
     for (int k = 1; k < rec.n; k++) assert_true(rec.events[k].state.t >= rec.events[k - 1].state.t);
     return s;

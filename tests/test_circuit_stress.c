@@ -69,7 +69,7 @@ static circuit_shot_config any_shot(uint64_t *seed, int n)
     return c;
 }
 
-/* 1e-5: ten times ARCHITECTURE's bound, for circuits whose time constants lie a million apart. */
+/* 1e-5: ten times README's bound, for circuits whose time constants lie a million apart. */
 static void random_circuits(void **state)
 {
     (void)state;

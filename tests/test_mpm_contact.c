@@ -235,18 +235,25 @@ static double between(double lo, double hi)
     return lo + (hi - lo) * rand() / RAND_MAX;
 }
 
-/* Of every law without a bond: no pull, no more along the surface than ends the sliding, and not along it. */
+/* Values anywhere in their ranges, but such as hold a pair together in tension stay as they are. */
+static void draw_values(mpm_contact *c)
+{
+    for (const base_param *p = c->law->params; p->key; p++)
+        if (strcmp(p->key, "bond_strength") != 0) *(double *)(void *)((char *)c + p->offset) = between(p->min, p->max);
+}
+
+/* Of every law without a bond: the approach ends; no more along the surface than ends the sliding, and not along it. */
 static void test_laws(void **state)
 {
     (void)state;
     srand(3);
     for (int i = 0; i < (int)CONTACT_LAWS; i++) {
         mpm_contact c = mpm_contact_of(mpm_contact_at(i));
-        assert_ok(mpm_contact_check(&c));
         assert_int_equal(mpm_contact_index(mpm_contact_find(c.law->name)), i);
-        if (i == CONTACT_coulomb) c.value[COULOMB_FRICTION] = 0.3;
         int pressed = 0;
         for (int n = 0; n < 10000; n++) {
+            draw_values(&c);
+            assert_ok(mpm_contact_check(&c));
             contact_touch t = { .area = between(1e-8, 1e-6),
                                 .shear = between(0, 1e9),
                                 .reduced = between(1e-9, 1e-6),
