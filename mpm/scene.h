@@ -63,12 +63,11 @@ typedef struct {
 
 /* ---- grid: rectilinear, each axis graded on its own ---- */
 
+/* What acts at an end of the window: one file a boundary, one line in law/boundary.def.  MPM_BOUNDARY_FREE, .. */
 typedef enum {
-    MPM_BOUNDARY_FREE,      /* nothing; points that leave are booked as ejected */
-    MPM_BOUNDARY_SYMMETRY,  /* mirror plane, ghost nodes folded; also a roller */
-    MPM_BOUNDARY_FIXED,     /* no motion */
-    MPM_BOUNDARY_ABSORBING, /* viscous, both wave speeds */
-    MPM_BOUNDARY_PRESCRIBED /* mpm_axis.boundary_velocity */
+#define BOUNDARY(PLACE, name, after, text) MPM_BOUNDARY_##PLACE,
+#include "mpm/law/boundary.def"
+    MPM_BOUNDARIES
 } mpm_boundary_kind;
 
 typedef struct {
@@ -184,6 +183,7 @@ extern const base_param mpm_body_params[], mpm_axis_params[], mpm_pair_params[],
 /* Names of choices, NULL at the end: -x +x -y +y -z +z; x y z; and of the enumerators above. */
 extern const char *const mpm_face_names[], *const mpm_axis_names[];
 extern const char *const mpm_boundary_names[], *const mpm_transfer_names[], *const mpm_basis_names[];
+extern const char *const mpm_boundary_docs[]; /* by kind: what it does */
 
 uint64_t mpm_scene_hash(const mpm_scene *s); /* of every member but the run's; needs all materials, kinds and laws */
 

@@ -10,8 +10,14 @@
 const char *const mpm_face_names[] = { "-x", "+x", "-y", "+y", "-z", "+z", NULL };
 const char *const mpm_axis_names[] = { "x", "y", "z", NULL };
 const char *const mpm_boundary_names[] = {
-    [MPM_BOUNDARY_FREE] = "free",           [MPM_BOUNDARY_SYMMETRY] = "symmetry",     [MPM_BOUNDARY_FIXED] = "fixed",
-    [MPM_BOUNDARY_ABSORBING] = "absorbing", [MPM_BOUNDARY_PRESCRIBED] = "prescribed", NULL
+#define BOUNDARY(PLACE, name, after, text) #name,
+#include "mpm/law/boundary.def"
+    NULL
+};
+const char *const mpm_boundary_docs[] = {
+#define BOUNDARY(PLACE, name, after, text) text,
+#include "mpm/law/boundary.def"
+    NULL
 };
 const char *const mpm_transfer_names[] = { [MPM_TRANSFER_TPIC] = "tpic", [MPM_TRANSFER_PIC] = "pic", NULL };
 const char *const mpm_basis_names[] = { [MPM_BASIS_GIMP] = "gimp", [MPM_BASIS_BSPLINE] = "bspline", NULL };
@@ -24,7 +30,7 @@ const char *const mpm_basis_names[] = { [MPM_BASIS_GIMP] = "gimp", [MPM_BASIS_BS
     }
 #define PASSES(face, key_) \
     ROW(mpm_body, key_, passes[face], "1", BASE_PARAM_FLAG, 0, 0, 1, "that end does not act on it")
-#define BOUNDARY(end, key_)                                                                 \
+#define END_OF_AXIS(end, key_)                                                              \
     {                                                                                       \
         .key = (key_), .unit = "1", .doc = "what acts at that end of the window",           \
         .offset = offsetof(mpm_axis, boundary[end]), .max = 1e9, .kind = BASE_PARAM_CHOICE, \
@@ -71,8 +77,8 @@ const base_param mpm_body_params[] = {
 };
 
 const base_param mpm_axis_params[] = {
-    BOUNDARY(0, "boundary_lo"),
-    BOUNDARY(1, "boundary_hi"),
+    END_OF_AXIS(0, "boundary_lo"),
+    END_OF_AXIS(1, "boundary_hi"),
     ROW(mpm_axis, "boundary_velocity_lo", boundary_velocity[0], "m/s", BASE_PARAM_VECTOR, 0, -1e5, 1e5,
         "if prescribed"),
     ROW(mpm_axis, "boundary_velocity_hi", boundary_velocity[1], "m/s", BASE_PARAM_VECTOR, 0, -1e5, 1e5,

@@ -259,6 +259,33 @@ static void test_every_contact(void **state)
     }
 }
 
+/* Every boundary is read at either end and comes back; what none is called is refused with the names of all. */
+static void test_every_boundary(void **state)
+{
+    (void)state;
+    char *errors = NULL;
+    breech_case *none = NULL;
+    assert_int_equal(read_text(TWO "  boundary: {y: [wall, free]}\n", CASE_FOR_SCENE, &none, &errors).code,
+                     STATUS_BAD_INPUT);
+    for (int i = 0; i < MPM_BOUNDARIES; i++) {
+        const char *name = mpm_boundary_names[i], *ends = i == MPM_BOUNDARY_PRESCRIBED ? ": 1 2 3 m/s}" : "";
+        char text[1500];
+        snprintf(text, sizeof text, TWO "  boundary: {y: [%s%s%s, free], z: [free, %s%s%s]}\n", ends[0] ? "{" : "",
+                 name, ends, ends[0] ? "{" : "", name, ends);
+        breech_case *c = read_good(text);
+        char *used = used_text(c);
+        breech_case *back = read_good(used);
+        const mpm_axis *y = &back->bodies.scene.axis[1], *z = &back->bodies.scene.axis[2];
+        assert_true((int)y->boundary[0] == i && (int)z->boundary[1] == i);
+        assert_true(y->boundary[1] == MPM_BOUNDARY_FREE && z->boundary[0] == MPM_BOUNDARY_FREE);
+        if (ends[0]) assert_true(y->boundary_velocity[0][2] == 3.0 && z->boundary_velocity[1][0] == 1.0);
+        if (!strstr(errors, name)) fail_msg("%s does not name %s", errors, name);
+        free(used);
+        case_free(back), case_free(c);
+    }
+    free(errors);
+}
+
 /* The plastic front belongs to the watch over an impact on a rail: what asked for it in a scene of bodies does nothing.
  */
 static void test_old_keys(void **state)
@@ -901,15 +928,25 @@ static void test_example(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_minimal),     cmocka_unit_test(test_cell_of_rules),
-        cmocka_unit_test(test_keys),        cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_every_shape), cmocka_unit_test(test_every_contact),
-        cmocka_unit_test(test_old_keys),    cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_refused),     cmocka_unit_test(test_unmakable),
-        cmocka_unit_test(test_driven),      cmocka_unit_test(test_every_probe),
-        cmocka_unit_test(test_probe_forms), cmocka_unit_test(test_gouging_as_text),
-        cmocka_unit_test(test_run),         cmocka_unit_test(test_samples),
-        cmocka_unit_test(test_report),      cmocka_unit_test(test_example),
+        cmocka_unit_test(test_minimal),
+        cmocka_unit_test(test_cell_of_rules),
+        cmocka_unit_test(test_keys),
+        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_every_shape),
+        cmocka_unit_test(test_every_contact),
+        cmocka_unit_test(test_every_boundary),
+        cmocka_unit_test(test_old_keys),
+        cmocka_unit_test(test_tree),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_unmakable),
+        cmocka_unit_test(test_driven),
+        cmocka_unit_test(test_every_probe),
+        cmocka_unit_test(test_probe_forms),
+        cmocka_unit_test(test_gouging_as_text),
+        cmocka_unit_test(test_run),
+        cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_report),
+        cmocka_unit_test(test_example),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

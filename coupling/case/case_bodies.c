@@ -56,6 +56,8 @@ static const base_param refine_params[] = {
     {                                                                     \
         .key = (key_), .doc = (text), .table = (table_), .given = NO_FLAG \
     }
+static const base_param no_params[] = { PARAMS_END };
+
 const case_section case_bodies_manual[] = {
     MANUAL("scene with bodies", &mpm_scene_params[MPM_SCENE_KEYED],
            "A scene of one's own: `scene` with `bodies` (scenes.md)."),
@@ -66,6 +68,13 @@ const case_section case_bodies_manual[] = {
            "body without one is a group by itself; `passes`, ends of the window whose boundary does not act on it."),
     MANUAL("scene.window", &mpm_axis_params[MPM_AXIS_KEYED],
            "`x`, `y` and `z`, each with these keys; what is left out follows from the bodies."),
+    MANUAL("scene.boundary", no_params,
+           "`x`, `y` and `z`, each a list of two, what acts at the window's lower end and at its upper one: `[free, "
+           "symmetry]`. Kinds: `boundary: ..` below; an axis that is left out ends freely."),
+    MANUAL("scene.contacts", no_params,
+           "A list (scenes.md). `default: LAW` and the law's values hold for all groups that no pair names, `between: "
+           "[a, b]`, `law: LAW` and its values for the groups of two bodies; there `normal_of` names the one whose "
+           "surface gives the normal. Laws: `contact: ..` below."),
     MANUAL("scene.probes", probe_params,
            "A list. Besides its name one key, the kind of probe (below): its values and `body`, or the name of a body "
            "alone; without a body it reads all of them. `force_on: a` stands for `force: {body: a}`."),
@@ -402,15 +411,20 @@ static void read_end(case_reader *r, const tree_node *node, const char *path, mp
         a->boundary[end] = MPM_BOUNDARY_PRESCRIBED;
         return;
     }
-    int kind = 0;
+    int kind = 0, n = 0;
+    char names[300] = "";
     const char *text = node->kind == TREE_TEXT ? node->text : "";
-    while (kind < MPM_BOUNDARY_PRESCRIBED && strcmp(mpm_boundary_names[kind], text) != 0) kind++;
-    a->boundary[end] = (mpm_boundary_kind)kind;
-    if (kind == MPM_BOUNDARY_PRESCRIBED)
-        case_errors_add(r->errors, node,
-                        "%s = %.*s: must be one of free, symmetry, fixed, absorbing, or {prescribed: "
-                        "velocity}",
-                        path, CASE_SHOWN, text);
+    while (kind < MPM_BOUNDARIES && (kind == MPM_BOUNDARY_PRESCRIBED || strcmp(mpm_boundary_names[kind], text) != 0))
+        kind++;
+    if (kind < MPM_BOUNDARIES) {
+        a->boundary[end] = (mpm_boundary_kind)kind;
+        return;
+    }
+    for (int k = 0; k < MPM_BOUNDARIES; k++)
+        if (k != MPM_BOUNDARY_PRESCRIBED)
+            n += snprintf(names + n, sizeof names - (size_t)n, "%s, ", mpm_boundary_names[k]);
+    case_errors_add(r->errors, node, "%s = %.*s: must be one of %sor {prescribed: 3 0 0 m/s}", path, CASE_SHOWN, text,
+                    names);
 }
 
 static void read_boundary(case_reader *r, const tree_node *map)

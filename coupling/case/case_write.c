@@ -148,7 +148,7 @@ static void print_section(FILE *file, const case_section *section, const char *p
     if (section->key[0]) fprintf(file, "\n## `%s%s%s`\n", parent, parent[0] ? "." : "", section->key);
     for (const case_section *part = section; part; part = part->also) {
         if (part->key[0]) fprintf(file, "\n%s\n", part->doc);
-        print_table(file, part->table);
+        if (part->table->key) print_table(file, part->table);
     }
     for (const case_section *part = section; part; part = part->also)
         for (const case_section *s = part->children; s && s->key; s++) print_section(file, s, section->key);
@@ -163,6 +163,11 @@ void case_print_keys(FILE *file)
         const mpm_solid_kind *k = mpm_solid_kind_at(i);
         snprintf(key, sizeof key, "shape: %s", k->name);
         print_section(file, &(case_section){ .key = key, .doc = k->doc, .table = k->params }, "");
+    }
+    for (int i = 0; i < MPM_BOUNDARIES; i++) {
+        static const base_param none[] = { PARAMS_END };
+        snprintf(key, sizeof key, "boundary: %s", mpm_boundary_names[i]);
+        print_section(file, &(case_section){ .key = key, .doc = mpm_boundary_docs[i], .table = none }, "");
     }
     for (int i = 0; mpm_contact_at(i); i++) {
         const mpm_contact_law *law = mpm_contact_at(i);

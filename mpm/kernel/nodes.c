@@ -136,8 +136,8 @@ static bool has_mass(double (*const line)[LINE])
 
 typedef struct {
     mpm_boundary_kind kind;
-    int axis;
-    double size; /* of the element beside the boundary [m] */
+    int axis, end; /* end: 0 the lower, 1 the upper */
+    double size;   /* of the element beside the boundary [m] */
     const double *velocity;
 } wall;
 
@@ -151,7 +151,8 @@ static int walls_at(const mpm *m, const axis axes[3], const int index[3], int gr
         const mpm_axis *s = &m->scene.axis[k];
         if (m->group[group].passes[2 * k + hi]) continue;
         if (s->boundary[hi] == MPM_BOUNDARY_FREE) continue;
-        w[n++] = (wall){ s->boundary[hi], k, hi ? axis_left(a, a->last) : axis_right(a, 1), s->boundary_velocity[hi] };
+        w[n++] =
+            (wall){ s->boundary[hi], k, hi, hi ? axis_left(a, a->last) : axis_right(a, 1), s->boundary_velocity[hi] };
     }
     return n;
 }
@@ -169,8 +170,17 @@ static bool is_held(const mpm *m, const node_side *s)
     return m->group[s->brick->group].held;
 }
 
+/* Where a wall acts on a group's node, and what books it. */
+typedef struct {
+    const mpm *m;
+    const brick *brick;
+    int cell;
+    double dt; /* [s] */
+    tally *sum;
+} wall_place;
+
 /* The wall's velocity in component k; what the mixing with it takes is heat, its reaction's work is booked. */
-static void hold(node_state *n, int k, double velocity, double dt, tally *sum)
+static void wall_hold(node_state *n, int k, double velocity, double dt, tally *sum)
 {
     const double change = velocity - n->v[k], J = n->m * change - dt * n->f[k];
     sum->impulse_boundary[k] += J;
@@ -229,39 +239,27 @@ static wave_speeds speeds_at(const mpm *m, const brick *b, int cell)
     return (wave_speeds){ sum.speeds.p / sum.mass, sum.speeds.s / sum.mass };
 }
 
-/* Viscous boundary of Lysmer and Kuhlemeyer (1969), implicit in v: the node's mass is rho A h/2, so rho c A = 2 c m/h.
- */
-static void absorb(node_state *n, const wall *w, wave_speeds c, double dt, tally *sum)
+#define BOUNDARY_ACTS
+#include "mpm/law/boundary.def"
+#undef BOUNDARY_ACTS
+
+typedef enum { BOUNDARY_ONCE, BOUNDARY_AGAIN } wall_turn;
+
+/* The walls at a node, before the forces (BOUNDARY_ONCE) or after a contact.  A held group stays at rest, whatever they
+ * say. */
+static void apply_walls(const mpm *m, node_side *side, int cell, wall_turn turn, double dt, tally *sum)
 {
-    for (int q = 0; q < 3; q++) {
-        const double rate = 2 * (q == w->axis ? c.p : c.s) / w->size;
-        const double v = (n->v[q] + dt * n->f[q] / n->m) / (1 + dt * rate);
-        const double J = -n->m * dt * rate * v;
-        sum->impulse_boundary[q] += J;
-        n->absorbed[q] += J;
-        n->f[q] += J / dt;
+    node_state *n = &side->state;
+    const wall_place at = { m, side->brick, cell, dt, sum };
+    if (is_held(m, side)) {
+        for (int k = 0; k < 3 && turn == BOUNDARY_ONCE; k++) wall_hold(n, k, 0, dt, sum);
+        return;
     }
-}
-
-/* A wall that says what the velocity is. */
-static void hold_at(const wall *w, double dt, node_state *n, tally *sum)
-{
-    static const double rest[3] = { 0, 0, 0 };
-    const double *velocity = w->kind == MPM_BOUNDARY_PRESCRIBED ? w->velocity : rest;
-    for (int q = 0; q < 3; q++)
-        if (w->kind != MPM_BOUNDARY_SYMMETRY || q == w->axis) hold(n, q, velocity[q], dt, sum);
-}
-
-/* A held group stays at rest, whatever the walls say. */
-static void apply_walls(const mpm *m, const node_side *side, int cell, double dt, node_state *n, tally *sum)
-{
-    for (int k = 0; k < 3 && is_held(m, side); k++) hold(n, k, 0, dt, sum);
-    for (int i = 0; i < side->n_walls && !is_held(m, side); i++) {
+    for (int i = 0; i < side->n_walls; i++) {
         const wall *w = &side->walls[i];
-        if (w->kind == MPM_BOUNDARY_ABSORBING)
-            absorb(n, w, speeds_at(m, side->brick, cell), dt, sum);
-        else
-            hold_at(w, dt, n, sum);
+#define BOUNDARY(PLACE, name, after, text) \
+    if (w->kind == MPM_BOUNDARY_##PLACE && (after) >= turn) boundary_##name(n, w, &at);
+#include "mpm/law/boundary.def"
     }
 }
 
@@ -416,7 +414,7 @@ static void begin_side(const mpm *m, const group_nodes *group, int cell, const i
         sum->impulse_external[k] -= dt * gas * n->extra[k];
     }
     side->n_walls = walls_at(m, axes_of(m, side->brick), index, side->brick->group, side->walls);
-    apply_walls(m, side, cell, dt, n, sum);
+    apply_walls(m, side, cell, BOUNDARY_ONCE, dt, sum);
     memcpy(n->v_start, n->v, sizeof n->v_start);
     n->heat -= 0.5 * dt * dot(line + 4, n->v);
     for (int k = 0; k < 3; k++) n->v[k] += dt * n->f[k] / n->m, n->f[k] = 0;
@@ -483,8 +481,7 @@ static void one_node(mpm *m, const scratch *at, int count, int cell, const int i
         }
     for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum);
     for (int s = 0; s < here; s++) {
-        for (int i = 0; count > 1 && i < side[s].n_walls && !is_held(m, &side[s]); i++)
-            if (side[s].walls[i].kind != MPM_BOUNDARY_ABSORBING) hold_at(&side[s].walls[i], dt, &side[s].state, sum);
+        if (count > 1) apply_walls(m, &side[s], cell, BOUNDARY_AGAIN, dt, sum);
         if (at->gas) at->swept[at->gas - 1] += volume_made(&side[s].state, dt);
         finish_node(&side[s].state, brick_nodes(m, side[s].brick)[cell], sum);
     }

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Every line of boundary.def: what it does to the bodies is booked, and at both ends of an axis it does the same. */
+#include "mpm_scenes.h"
+
+static const double H = 0.5e-3, FAR = 6e-3, DEEP = 2e-3, END = 3e-6;
+
+/* Two blocks of two groups at one end of x, the upper at end 1.  They fly towards it, one of them along it as well, and
+ * along the other. */
+static void end_scene(mpm_scene *s, const mpm_material *m, int kind, int end)
+{
+    const double lo = end ? -1 : 0, hi = end ? 0 : 1, out = end ? 30 : -30;
+    mpm_scene_default(s);
+    s->axis[0] = scene_axis(lo * FAR, hi * FAR, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[1] = scene_axis(-3e-3, 3e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[2] = scene_axis(-1e-3, 2e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[0].boundary[end] = (mpm_boundary_kind)kind;
+    const double moved[] = { -0.5 * out, 8, 3 };
+    memcpy(s->axis[0].boundary_velocity[end], moved, sizeof moved);
+    scene_friction(s, 0.3);
+    scene_box(s, lo * DEEP, -1e-3, 0, hi * DEEP, 0, 1e-3, m)->velocity[0] = out;
+    mpm_body *b = scene_box(s, lo * DEEP, 0, 0, hi * DEEP, 1e-3, 1e-3, m);
+    b->group = 1;
+    b->velocity[0] = out, b->velocity[1] = -10, b->velocity[2] = 20;
+}
+
+typedef struct {
+    mpm_ledger sums;
+    double velocity[2][3]; /* of the blocks [m/s] */
+} outcome;
+
+static outcome run_end(int kind, int end)
+{
+    const mpm_material m = scene_copper();
+    outcome o;
+    SCENE_LOCAL(s);
+    end_scene(&s, &m, kind, end);
+    mpm *solver = scene_make(&s, 1);
+    assert_ok(mpm_advance(solver, END, NULL));
+    o.sums = mpm_balance(solver);
+    for (int b = 0; b < 2; b++)
+        for (int k = 0; k < 3; k++) o.velocity[b][k] = scene_mean(solver, MPM_velocity, k, b);
+    mpm_free(solver);
+    return o;
+}
+
+/* Momentum and energy close to rounding; but for `free` the end acts, and against the motion. */
+static void check_books(int kind, const outcome *o)
+{
+    print_message("%-10s impulse %+.3e N s, momentum %.1e, energy %+.1e\n", mpm_boundary_names[kind],
+                  o->sums.impulse_boundary[0], o->sums.momentum_error, o->sums.energy_error);
+    assert_below(o->sums.momentum_error, 1e-12);
+    assert_near(o->sums.energy_error, 0, 1e-10);
+    if (kind == MPM_BOUNDARY_FREE)
+        assert_near(o->sums.impulse_boundary[0], 0, 0);
+    else
+        assert_true(o->sums.impulse_boundary[0] > 1e-6);
+}
+
+static void test_every_boundary(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < MPM_BOUNDARIES; kind++) {
+        const outcome lower = run_end(kind, 0), upper = run_end(kind, 1);
+        check_books(kind, &lower);
+        for (int b = 0; b < 2; b++)
+            for (int k = 0; k < 3; k++) {
+                const double mirrored = k == 0 ? -upper.velocity[b][k] : upper.velocity[b][k];
+                if (!(fabs(lower.velocity[b][k] - mirrored) < 1e-8 * 30)) /* sums in another order */
+                    fail_msg("%s: component %d of block %d: %.12g m/s at the lower end, %.12g at the upper",
+                             mpm_boundary_names[kind], k, b, lower.velocity[b][k], mirrored);
+            }
+    }
+}
+
+/* What each says of itself, of two blocks that were let fly into it with 30 m/s, one of them along it with 20 m/s too.
+ */
+static void test_what_they_do(void **state)
+{
+    (void)state;
+    const outcome away = run_end(MPM_BOUNDARY_FREE, 0), mirror = run_end(MPM_BOUNDARY_SYMMETRY, 0),
+                  fixed = run_end(MPM_BOUNDARY_FIXED, 0), moved = run_end(MPM_BOUNDARY_PRESCRIBED, 0),
+                  viscous = run_end(MPM_BOUNDARY_ABSORBING, 0);
+    const double along = away.velocity[1][2]; /* less than 20 m/s by the friction of the blocks on each other */
+    assert_true(along > 10 && mirror.velocity[1][2] > 0.9 * along);
+    assert_true(fixed.velocity[1][2] < 0.5 * along && viscous.velocity[1][2] < 0.7 * along);
+    assert_near(away.velocity[0][0], -30, 0.1);
+    assert_true(mirror.velocity[0][0] > -10 && fixed.velocity[0][0] > -10 && viscous.velocity[0][0] > -10);
+    assert_true(moved.velocity[0][0] > 10); /* it is pushed inwards with 15 m/s */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_every_boundary), cmocka_unit_test(test_what_they_do) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
