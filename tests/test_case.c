@@ -263,7 +263,20 @@ static void yaml_errors_have_a_place(void **state)
         { "name: *x\n", "case.yaml:1:7: aliases (*name) are not used" },
         { "name: !!str a\n", "case.yaml:1:7: tags (!name) are not used" },
         { "name: a\n---\nname: b\n", "case.yaml:2:1: a second document" },
-        { "name: [a\n", "case.yaml:2:1: not valid YAML" },
+        { "name: [a\n",
+          "case.yaml:2:1: not valid YAML: did not find expected ',' or ']' while parsing a flow sequence: "
+          "a bracket is not closed, or a text with brackets or commas in it lacks its quotes" },
+        { "rail:\n\theight: 1 mm\n", "case.yaml:2:1: not valid YAML: found character that cannot start any token while "
+                                     "scanning for the next token: a tab; lines are indented with blanks alone" },
+        { "rail:\n  height: 1 mm\n level: skin\n",
+          "case.yaml:3:2: not valid YAML: did not find expected key while parsing a block mapping: this line does not "
+          "begin below the others of its section" },
+        { "rail:\n  height\n  level: skin\n",
+          "case.yaml:3:8: not valid YAML: mapping values are not allowed in this context: it begins further right than "
+          "the others of its section, the line above lacks its `:`, or" },
+        { "bank:\n  - {count: 1}\n  count: 2\n", "case.yaml:3:3: not valid YAML: did not find expected '-' indicator "
+                                                 "while parsing a block collection: entries "
+                                                 "of a list begin with `- `, one below the other" },
         { "name: \"a\\0b\"\n", "case.yaml:1:7: a control character" },
         { "- a\n- b\n", "case.yaml:1:1: case.yaml is no case" },
         { "a: [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]\n",

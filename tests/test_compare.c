@@ -359,6 +359,8 @@ static void test_refusals(void **state)
         { "treatments: [{name: a}]\n", "needs it, or `populations`" },
         { "populations: [{preset: dust}]\ntreatments: [{name: a}]\n", "must be one of none, machining, debris, sand" },
         { "populations: [{density: 1 1/m}]\ntreatments: [{name: a}]\n", "radius_median is missing" },
+        { "populations: [{preset: dust}, {density: 1, radius_median: 1 mm}]\ntreatments: [{name: a}]\n",
+          "[1].radius_spread is missing" },
         { "populations: [{preset: sand, from: 2 m, to: 1 m}]\ntreatments: [{name: a}]\n", "must lie before" },
         { "populations: [{preset: sand, to: 5 m}]\ntreatments: [{name: a}]\n", "barrel.length = 3 m" },
         { "populations: [{preset: sand, sizes: [{radius: 2 mm, share: 1}, {radius: 1 mm, share: 1}]}]\ntreatments: "
@@ -370,6 +372,8 @@ static void test_refusals(void **state)
         snprintf(text, sizeof text, HEAD "%s", wrong[k].text);
         char *errors = errors_of(text, ALL);
         if (!strstr(errors, wrong[k].says)) fail_msg("`%s` is not in:\n%s", wrong[k].says, errors);
+        /* what is given, but could not be read, is not missing too */
+        if (strstr(errors, "density is missing")) fail_msg("told twice:\n%s", errors);
         free(errors);
     }
 }

@@ -200,7 +200,8 @@ static void read_body(case_reader *r, const tree_node *list, int k, const char *
 static void read_bodies(case_reader *r, const tree_node *list)
 {
     if (list->kind != TREE_LIST || list->n == 0) {
-        case_errors_add(r->errors, list, "scene.bodies must be a list of bodies, at least one");
+        case_errors_add(r->errors, list,
+                        "scene.bodies must be a list of bodies, at least one; each begins with `- name: ..`");
         return;
     }
     for (int k = 0; k < list->n; k++) {

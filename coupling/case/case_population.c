@@ -65,9 +65,12 @@ void case_populations_resolve(case_reader *r)
 
 /* ---- checks ---- */
 
-static void need(case_reader *r, bool there, const tree_node *node, int k, const char *what)
+/* A key, or a preset, that is given but could not be read is an error already. */
+static void need(case_reader *r, bool there, const tree_node *node, int k, const char *key, const char *unit)
 {
-    if (!there) case_errors_add(r->errors, node, "populations[%d].%s: give it, or a preset", k, what);
+    const bool unread = host_tree_find(node, "preset") && r->out->populations.item[k].preset == POPULATION_NONE;
+    if (there || host_tree_find(node, key) || unread) return;
+    case_errors_add(r->errors, node, "populations[%d].%s is missing%s: give it, or a preset", k, key, unit);
 }
 
 static void check_sizes(case_reader *r, const case_population *p, const tree_node *node, int k)
@@ -91,9 +94,9 @@ void case_populations_check(case_reader *r)
     for (int k = 0; k < c->populations.n; k++) {
         const case_population *p = &c->populations.item[k];
         const tree_node *node = case_entry_node(list, k);
-        need(r, !isnan(p->density), node, k, "density is missing [1/m]");
-        need(r, p->sizes.n > 0 || !isnan(p->radius_median), node, k, "radius_median is missing [m]");
-        need(r, p->sizes.n > 0 || !isnan(p->radius_spread), node, k, "radius_spread is missing");
+        need(r, !isnan(p->density), node, k, "density", " [1/m]");
+        need(r, p->sizes.n > 0 || !isnan(p->radius_median), node, k, "radius_median", " [m]");
+        need(r, p->sizes.n > 0 || !isnan(p->radius_spread), node, k, "radius_spread", "");
         check_sizes(r, p, node, k);
         if (p->to <= p->from)
             case_errors_add(r->errors, node, "populations[%d].from = %g m: must lie before `to` = %g m", k, p->from,

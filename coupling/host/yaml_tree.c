@@ -118,6 +118,27 @@ static void mark_offset(reading *r, size_t offset)
     }
 }
 
+/* What a beginner has done where libyaml says this; "" where it is clear or not known. */
+static const char *hint_of(const reading *r, const yaml_parser_t *p)
+{
+    static const char bracket[] = ": a bracket is not closed, or a text with brackets or commas in it lacks its quotes";
+    static const struct {
+        const char *problem, *hint;
+    } of[] = {
+        { "did not find expected key", ": this line does not begin below the others of its section" },
+        { "did not find expected '-' indicator", ": entries of a list begin with `- `, one below the other" },
+        { "mapping values are not allowed", ": it begins further right than the others of its section, the line above "
+                                            "lacks its `:`, or a text with `: ` in it its quotes" },
+        { "could not find expected ':'", ": a line above is no `key: value`" },
+        { "did not find expected ',' or", bracket },
+    };
+    const size_t at = p->problem_mark.index;
+    if (at < r->length && r->bytes[at] == '\t') return ": a tab; lines are indented with blanks alone";
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++)
+        if (p->problem && strncmp(p->problem, of[k].problem, strlen(of[k].problem)) == 0) return of[k].hint;
+    return "";
+}
+
 static status next_event(reading *r)
 {
     if (r->has_event) yaml_event_delete(&r->event);
@@ -127,8 +148,9 @@ static status next_event(reading *r)
         CHECK(p->error != YAML_MEMORY_ERROR, STATUS_MEMORY, "out of memory while reading a case");
         mark(r, p->problem_mark);
         if (p->error == YAML_READER_ERROR) mark_offset(r, p->problem_offset);
-        return base_status_error(STATUS_BAD_INPUT, "not valid YAML: %s%s%s", p->problem ? p->problem : "cannot be read",
-                                 p->context ? " " : "", p->context ? p->context : "");
+        return base_status_error(STATUS_BAD_INPUT, "not valid YAML: %s%s%s%s",
+                                 p->problem ? p->problem : "cannot be read", p->context ? " " : "",
+                                 p->context ? p->context : "", hint_of(r, p));
     }
     r->has_event = true;
     mark(r, r->event.start_mark);
