@@ -375,12 +375,15 @@ static void set_can_give_a_whole_list(void **state)
 static void set_errors_name_the_set(void **state)
 {
     (void)state;
-    const char *sets[] = { "bank.charg=3", "rail.height=2 kV", "bank[2].charge=3 V", "name.x=3", "scene=[1,{",
-                           "=3",           "bank[x].charge=3", "study.max_scenes=0", "nothing",  "bank.charge=9" };
-    char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, 10, 0);
+    const char *sets[] = { "bank.charg=3",     "rail.height=2 kV",   "bank[2].charge=3 V",
+                           "name.x=3",         "scene=[1,{",         "=3",
+                           "bank[x].charge=3", "study.max_scenes=0", "nothing",
+                           "bank.charge=9",    "banc[0].charge=3" };
+    char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, sizeof sets / sizeof *sets, 0);
     has_line(e, "--set bank.charg=3: unknown key `charg` in bank[0]; did you mean `charge`?\n");
     has_line(e, "--set rail.height=2 kV: rail.height = 2 kV: `kV` is not a unit of m (100 um .. 10 m)\n");
     has_line(e, "--set bank[2].charge=3 V: bank has 2 entries: bank[0] .. bank[1]\n");
+    has_line(e, "--set banc[0].charge=3: banc has no entries; did you mean `bank`?\n");
     has_line(e, "--set name.x=3: x is not inside a section");
     has_line(e, "--set scene=[1,{: not valid YAML");
     has_line(e, "--set =3: wanted path.to.key=value");
@@ -388,7 +391,7 @@ static void set_errors_name_the_set(void **state)
     has_line(e, "--set study.max_scenes=0: study.max_scenes = 0: must be positive (1 .. 100000)\n");
     has_line(e, "--set nothing: wanted path.to.key=value");
     has_line(e, "--set bank.charge=9: bank[0].charge = 9: needs a unit, such as `9 V` (0 V .. 1 MV)\n");
-    assert_int_equal(lines_of(e), 10); /* one line a set, however many entries it reaches */
+    assert_int_equal(lines_of(e), 11); /* one line a set, however many entries it reaches */
     free(e);
     free(text);
 }

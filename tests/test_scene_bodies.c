@@ -346,7 +346,10 @@ static const struct {
     { HEAD "  bodies: [{name: a, material: nickel}]\n", "scene.bodies[0].shape is missing" },
     { HEAD "  bodies: [{name: a, material: nickel, shape: {bal: {}}}]\n", "case.yaml:4:48: unknown shape `bal`" },
     { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 mm, radius: 1 mm}}}]\n",
-      "center = 0 0 mm: must be three numbers and their unit" },
+      "center = 0 0 mm: must be three numbers and their unit, `0 -50 50 mm`, or [x, y, z]" },
+    { HEAD "  bodies: [{name: a, material: nickel, velocity: 5 m/s, shape: {sphere: {radius: 1 mm}}}]\n",
+      "velocity = 5 m/s: must be three numbers and their unit, `0 -50 50 m/s`, or [x, y, z]" },
+    { TWO "  contacts: [{between: [wall, ball]}]\n", "contacts[0].law must name a law of contact, such as coulomb" },
     { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0.1 0.2 0.3, radius: 1 mm}}}]\n",
       "center = 0.1: needs a unit, such as `0.1 m`" }, /* as it is written, not as it is kept */
     { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: -1 mm}}}]\n",

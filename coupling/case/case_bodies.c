@@ -226,7 +226,8 @@ static bool read_contact(case_reader *r, const tree_node *map, const char *key, 
     static const char *const others[] = { "default", "between", "law", "normal_of", NULL };
     const tree_node *node = host_tree_find(map, key);
     if (!node || node->kind != TREE_TEXT) {
-        case_errors_add(r->errors, node ? node : map, "%s.%s must name a law of contact", path, key);
+        case_errors_add(r->errors, node ? node : map, "%s.%s must name a law of contact, such as %s", path, key,
+                        law_name(NULL, 0));
         return false;
     }
     const mpm_contact_law *law = mpm_contact_find(node->text);

@@ -184,7 +184,14 @@ static void read_vector_text(case_reader *r, const base_param *p, const tree_nod
         length[n] = (int)(end - number[n]);
     }
     if (n < 3) {
-        wrong(r, node, path, "must be three numbers and their unit, `0 -50 50 mm`, or [x, y, z]");
+        const bool bare = strcmp(p->unit, "1") == 0, length_unit = strcmp(p->unit, "m") == 0;
+        char reason[UNIT_SIZE + 80];
+        snprintf(reason, sizeof reason, "must be three numbers%s, `0 -50 50%s%s`, or [x, y, z]",
+                 bare ? "" : " and their unit", bare ? "" : " ",
+                 bare          ? ""
+                 : length_unit ? "mm"
+                               : p->unit);
+        wrong(r, node, path, reason);
         return;
     }
     for (int k = 0; k < 3; k++) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/host/yaml_tree.h"
+#include "coupling/host/words.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -438,6 +439,19 @@ static status set_in_list(tree_node **slot, const set_path *path, int i)
     return status_ok();
 }
 
+static const char *key_of(const void *map, int k)
+{
+    const tree_node *m = map;
+    return k < m->n ? m->key[k]->text : NULL;
+}
+
+static status no_entries(const tree_node *map, const char *name)
+{
+    const char *near = host_nearest_name(name, key_of, map);
+    return base_status_error(STATUS_BAD_INPUT, "%s has no entries%s%s%s", name, near ? "; did you mean `" : "",
+                             near ? near : "", near ? "`?" : "");
+}
+
 /* path->step[i] inside the section *slot. */
 static status set_in(tree_node **slot, const set_path *path, int i)
 {
@@ -448,7 +462,7 @@ static status set_in(tree_node **slot, const set_path *path, int i)
           i > 0 ? path->step[i - 1].name : "the file", map->kind == TREE_LIST ? "list" : "value");
     tree_node **inner = slot_of(map, step->name);
     if (!inner) {
-        CHECK(step->index < 0, STATUS_BAD_INPUT, "%s has no entries", step->name);
+        if (step->index >= 0) return no_entries(map, step->name);
         CHECK(map->n < 2 * TREE_MAX_KEYS, STATUS_BAD_INPUT, "a section has at most %d keys", 2 * TREE_MAX_KEYS);
         tree_node *key = NULL, *fresh = node_new(TREE_MAP, 0, 0, path->set);
         CHECK(fresh, STATUS_MEMORY, "out of memory while reading --set");
