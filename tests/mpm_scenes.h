@@ -70,7 +70,7 @@ static inline mpm_material scene_aluminium(void) /* row w17_al7075 */
     return m;
 }
 
-static inline mpm_material scene_hydro(void) /* copper of NUMERICS V3, without strength */
+static inline mpm_material scene_hydro(void) /* copper of the plane shocks, without strength */
 {
     mpm_material m = scene_copper();
     strcpy(m.name, "hydro");

@@ -151,7 +151,7 @@ static void closed_form(double drop)
     assert_true(worst < 1e-8);
     assert_near(circuit_shot_result(s).peak_current, peak, 1e-8 * peak);
     assert_int_equal(rec.count[CIRCUIT_SHOT_CROWBAR], 1);
-    assert_near(rec.events[1].state.t, exact.crowbar, 1e-11); /* NUMERICS: right to 1e-12 s at rtol 1e-8 for one loop */
+    assert_near(rec.events[1].state.t, exact.crowbar, 1e-11); /* right to 1e-12 s at rtol 1e-8 for one loop */
     if (drop > 0.0) {                                         /* zero current at t_c + L/R ln(1 + R i_c/V_d) */
         const double end = exact.crowbar + exact.L / exact.R * log1p(exact.R * exact.i_crowbar / drop);
         OK(circuit_shot_advance(s, INFINITY, &sink));

@@ -448,7 +448,7 @@ static void test_hugoniot(void **state)
         assert_near(p.q.p[0][0] / want, 1, EXACT * 10);
     }
     const double pressure = m.density * (m.sound_speed + m.hugoniot_slope * 1000) * 1000;
-    assert_near(pressure, 48.48e9, 0.005e9); /* NUMERICS V3 */
+    assert_near(pressure, 48.48e9, 0.005e9); /* rho us up, as a table has it */
 }
 
 /* Squeezed slowly: energy and pressure along the isentrope by a fine Runge-Kutta of de/dmu = p(mu, e)/(rho0 (1 +

@@ -3,7 +3,7 @@
  * through a graded zone.
  *
  * Tolerance of speed and pressure: 1 %, what the product promises.  The front can be placed to half a point's spacing,
- * 0.5 % of its way at 200 cells, so the pressure is held tighter than the speed: to 0.5 % (NUMERICS V3). */
+ * 0.5 % of its way at 200 cells, so the pressure is held tighter than the speed: to 0.5 %. */
 #include "mpm_scenes.h"
 
 static const double US = 5429, P_H = 48.48e9; /* c0 + s up and rho0 us up at up = 1 km/s, copper 8930, 3940, 1.489 */
@@ -79,7 +79,7 @@ static void hold(shock_error e, int cells)
 {
     assert_near(e.pressure, 0, 0.005);
     assert_near(e.speed, 0, 0.01);
-    /* NUMERICS V3 wants 1 % of rms at 400 cells, and it falls as 1/cells; 1.12 % was measured there, hence 1.3 */
+    /* 1 % of rms was wanted at 400 cells, and it falls as 1/cells; 1.12 % was measured there, hence 1.3 */
     assert_below(e.rms, 0.013 * 400 / cells);
     assert_near(e.energy, 0, 1e-11); /* rounding, of what a drift adds too */
 }
@@ -146,8 +146,8 @@ static size_t pulse(double growth, int levels, double **pressure, double *incide
     return n;
 }
 
-/* What the grading sends back is the difference from the same pulse in cells that stay fine.  NUMERICS: a wave crossing
- * the grading must not reflect more than 1 %; cells that double are let to 1.5 %, 1.2 % was measured. */
+/* What the grading sends back is the difference from the same pulse in cells that stay fine.  A wave crossing the
+ * grading should not reflect more than 1 %; cells that double are let to 1.5 %, 1.2 % was measured. */
 static void test_grading(void **state)
 {
     (void)state;
@@ -171,8 +171,8 @@ static void test_grading(void **state)
     free(even);
 }
 
-/* The other basis is there to compare with: NUMERICS found it 4.7 % low at 400 cells and growing with the cells that
- * the points cross.  Were it as good as the domains that follow the stretch, those would not be the default. */
+/* The other basis is there to compare with: it was found 4.7 % low at 400 cells, and lower the more cells the points
+ * cross.  Were it as good as the domains that follow the stretch, those would not be the default. */
 static void test_bspline(void **state)
 {
     (void)state;

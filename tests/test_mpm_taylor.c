@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Taylor bar: OFHC copper, 25.4 mm long, 7.62 mm across, at 190 m/s onto a smooth rigid wall; a quarter of it.
  *
- * Want (NUMERICS V9): L/L0 0.68 .. 0.69, D/D0 1.90 .. 1.92, what two independent codes give with these Johnson-Cook
+ * Want: L/L0 0.68 .. 0.69, D/D0 1.90 .. 1.92, what two independent codes give with these Johnson-Cook
  * constants; the product promises to be within 3 % of that. */
 #include "mpm_scenes.h"
 

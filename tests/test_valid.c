@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The validations of tests/validate held to their limits: the coarse levels, all of them with BREECH_FULL=1.  Momentum
- * and mass (V11) everywhere. */
+ * and mass everywhere. */
 #include "valid.h"
 
-static const double ROUNDING = 1e-12; /* what NUMERICS V11 wants */
+static const double ROUNDING = 1e-12; /* of sums over all points */
 
 static void hold(const valid_case *c, const valid_result *r, const double *limit)
 {
