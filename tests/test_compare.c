@@ -4,6 +4,7 @@
 #include "coupling/case/case.h"
 #include "coupling/case/treatment.h"
 #include "coupling/gouge/growth.h"
+#include "coupling/host/outdir.h"
 #include "coupling/study/compare.h"
 #include "coupling/study/sampling/shifts.h"
 #include "coupling/study/study.h"
@@ -454,6 +455,9 @@ static void test_presets(void **state)
 #include "coupling/case/population.def"
 #undef POPULATION
     };
+    static const char page[] = BREECH_TESTS "/../docs/theory/onset.md";
+    char *table = NULL, row[200];
+    OK(host_file_read(page, &table, NULL));
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         char text[4000];
         snprintf(text, sizeof text, HEAD "populations: [{preset: %s, from: 1 m}]\n" TREATED, names[k]);
@@ -463,8 +467,12 @@ static void test_presets(void **state)
         assert_true(p->from == 1.0 && p->to == 3.0);
         assert_non_null(case_material(&c->materials, p->material));
         OK(possible(c));
+        snprintf(row, sizeof row, "\n| `%s` | %g, %g mm, %g |", names[k], p->density, 1e3 * p->radius_median,
+                 p->radius_spread);
+        if (!strstr(table, row)) fail_msg("%s lacks a line that begins%s", page, row);
         case_free(c);
     }
+    free(table);
     breech_case *c = read(HEAD "populations: [{preset: debris, density: 7 1/m, bond_strength: none}]\n" TREATED, ALL);
     assert_true(c->populations.item[0].density == 7.0 && isnan(c->populations.item[0].bond_strength));
     assert_string_equal(c->populations.item[0].material, "al7075_t651");

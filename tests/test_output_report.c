@@ -229,7 +229,7 @@ static void page_for_every_kind(void **state)
         is_self_contained(text);
         const char *head = strstr(text, "class=\"verdict\""), *says = head ? strstr(head, first_words(kind)) : NULL;
         if (!says || says > strstr(head, "</p>"))
-            fail_msg("%s: %.300s", study_list[kind]->name, head ? head : "no head");
+            fail_msg("%s: %.300s", study_list[kind]->name, head ? head : "its page has no head (report of the study)");
         assert_non_null(strstr(text, "case &lt;1&gt; &amp; &quot;two&quot;"));
         assert_non_null(strstr(text, "copper &lt;weak&gt;"));
         assert_non_null(strstr(text, "name: a &lt;b&gt;"));

@@ -186,11 +186,39 @@ static void test_zsh(void **state)
                      0);
 }
 
+/* Pages that list commands by hand have all of them, and the text of sweep.of those that a sweep can run. */
+static void test_lists_by_hand(void **state)
+{
+    (void)state;
+    static const char readme[] = BREECH_TESTS "/../README.md", keys[] = BREECH_TESTS "/../docs/reference/case-files.md";
+    static const char begins[] = "the study to run: ";
+    char *page = NULL, text[80], line[300] = "";
+    OK(host_file_read(keys, &page, NULL));
+    const char *of = strstr(page, begins);
+    assert_non_null(of);
+    snprintf(line, sizeof line, " %.*s,", (int)strcspn(of + strlen(begins), "|\n"), of + strlen(begins));
+    for (char *c = line; *c; c++)
+        if (*c == ' ' && c[1] == ',') memmove(c, c + 1, strlen(c));
+    for (int i = 0; i < STUDIES; i++) {
+        const char *name = study_list[i]->name;
+        snprintf(text, sizeof text, "`breech %s CASE`", name);
+        if (!contains(readme, text)) fail_msg("README.md has no line for %s in its table of commands", text);
+        snprintf(text, sizeof text, "\n| `breech %s` |", name);
+        if (!strstr(page, text)) fail_msg("docs/reference/case-files.md does not say what `breech %s` needs", name);
+        snprintf(text, sizeof text, " %s,", name);
+        if (study_list[i]->can_vary != (strstr(line, text) != NULL))
+            fail_msg("sweep.of, coupling/case/case_schema.c: `%s` %s in its text:%s", name,
+                     study_list[i]->can_vary ? "is not" : "is", line);
+    }
+    free(page);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_help), cmocka_unit_test(test_examples), cmocka_unit_test(test_not_taken),
-        cmocka_unit_test(test_man),  cmocka_unit_test(test_bash),     cmocka_unit_test(test_zsh),
+        cmocka_unit_test(test_help),          cmocka_unit_test(test_examples), cmocka_unit_test(test_not_taken),
+        cmocka_unit_test(test_man),           cmocka_unit_test(test_bash),     cmocka_unit_test(test_zsh),
+        cmocka_unit_test(test_lists_by_hand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
