@@ -3,7 +3,7 @@
 """Links of all pages lead somewhere:   tests/links.py [ROOT]
 
 Every relative link and picture of a markdown file names a file or folder under ROOT (default: the tree), and what
-stands behind `#` is a heading of that page, as GitHub and the site name it.  A page under docs that nothing links to is a fault too."""
+stands behind `#` is a heading of that page, as GitHub and the site name it.  A page under docs or cases that nothing links to is a fault too."""
 import os
 import re
 import sys
@@ -64,9 +64,9 @@ def faults_of(root):
                 faults.append(f"{where}: {link}: no such heading there")
             if target != page:
                 reached.add(target)
-    docs = os.path.join(os.path.realpath(root), "docs") + os.sep
+    known = tuple(os.path.join(os.path.realpath(root), folder) + os.sep for folder in ("docs", "cases"))
     faults += [f"{os.path.relpath(page, root)}: no page links to it" for page in sorted(texts)
-               if page.startswith(docs) and page not in reached]
+               if page.startswith(known) and page not in reached]
     return faults, len(texts)
 
 
@@ -76,13 +76,14 @@ def try_itself():
     assert anchors(text) == {"a-b-c", "a-b-c-1", "a-b-c-2"}, anchors(text)
     assert not LINK.findall(without_code(text))
     with tempfile.TemporaryDirectory() as root:
-        os.mkdir(os.path.join(root, "docs"))
+        os.makedirs(os.path.join(root, "docs"))
+        os.makedirs(os.path.join(root, "cases", "e"))
         for name, page in (("README.md", "@ One\n[a](docs/b.md@two) [a](docs/b.md@three) [c](docs/c.md)\n"),
-                           ("docs/b.md", "@ Two\n[one](../README.md@one)\n"), ("docs/d.md", "@ Four\n")):
+                           ("docs/b.md", "@ Two\n[one](../README.md@one)\n"), ("docs/d.md", "@ Four\n"), ("cases/e/README.md", "@ Five\n")):
             with open(os.path.join(root, name), "w", encoding="utf-8") as file:
                 file.write(page.replace("@", "\x23"))
         said = " ".join(faults_of(root)[0])
-        assert all(word in said for word in ("b.md\x23three", "no docs/c.md", "d.md: no page")) and "two" not in said, said
+        assert all(word in said for word in ("b.md\x23three", "no docs/c.md", "d.md: no page", "e/README.md: no page")) and "two" not in said, said
     assert LINK.findall("[a](b.md) ![p](f/g.svg) [`d`](e.md)") == ["b.md", "f/g.svg", "e.md"]
 
 
