@@ -31,6 +31,7 @@ enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_STOPPED = 75 };
 
 typedef struct {
     usage_line line;
+    double started; /* of host_wall_clock, when the program was [s] */
     lending *lending;
     size_t *largest; /* memory of the case's largest scene, once it is read [bytes] */
 } options;
@@ -164,7 +165,7 @@ static int carry_out(const options *o, const case_inputs *in, session *s)
 {
     const study_case of = study_case_of(o, in);
     study_answer answer = { .result = NULL };
-    host_stop_install(o->line.max_walltime);
+    host_stop_install(o->started, o->line.max_walltime);
     const study *y = study_for(o->line.command.study, in);
     status work = y->run(s, &of, &answer);
     const status written = write_results(o, in, s, &answer, work);
@@ -429,7 +430,7 @@ static int run_command(const options *o)
     return o->line.command.study ? run_case(o) : others[o->line.command.number - STUDIES](o);
 }
 
-static int lead(int argc, char **argv, int threads, lending *l)
+static int lead(int argc, char **argv, double started, int threads, lending *l)
 {
     const int answered = argc > 1 ? answer(argc, argv) : -1;
     if (answered >= 0) return answered;
@@ -438,7 +439,7 @@ static int lead(int argc, char **argv, int threads, lending *l)
         return EXIT_USAGE;
     }
     size_t largest = 0;
-    options o = { .line = { .threads = threads }, .lending = l, .largest = &largest };
+    options o = { .line = { .threads = threads }, .started = started, .lending = l, .largest = &largest };
     const status s = usage_parse(argc, argv, &o.line);
     if (s.code != STATUS_OK) return complain(s);
     if (o.line.processes && run_ranks_launched())
@@ -466,6 +467,7 @@ static int follow(int argc, char **argv, int threads, lending *l)
 
 int main(int argc, char **argv)
 {
+    const double started = host_wall_clock();
     signal(SIGXFSZ, SIG_IGN); /* a file at the limit of its size (ulimit -f) is one that cannot be written */
     wait_passively(argv);
     status s = run_ranks_start(default_processes(argc, argv));
@@ -476,7 +478,7 @@ int main(int argc, char **argv)
     if (s.code != STATUS_OK) return complain(s);
     int code;
     if (run_ranks_number() == 0) {
-        code = lead(argc, argv, threads, l);
+        code = lead(argc, argv, started, threads, l);
         if (fflush(stdout) != 0 || ferror(stdout)) {
             fprintf(stderr, "breech: standard output cannot be written to\n");
             if (code == EXIT_DONE) code = EXIT_FAILED;

@@ -913,6 +913,33 @@ static void quantities(void **state)
     host_units_close(u);
 }
 
+/* Whatever was asked before, and whoever else has the units open: more conversions than are remembered, twice. */
+static void conversions_do_not_mix(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "m", "s", "V", "A", "J", "Pa", "N", "W", "Hz", "F", "H", "ohm" };
+    static const struct {
+        const char *name;
+        double value;
+    } prefix[] = { { "p", 1e-12 }, { "n", 1e-9 }, { "u", 1e-6 }, { "m", 1e-3 }, { "", 1.0 },
+                   { "k", 1e3 },   { "M", 1e6 },  { "G", 1e9 },  { "T", 1e12 } };
+    enum { NAMES = sizeof names / sizeof names[0], PREFIXES = sizeof prefix / sizeof prefix[0] };
+    units *u, *other;
+    assert_int_equal(host_units_open(&u).code, STATUS_OK);
+    for (int k = 0; k < 2 * NAMES * NAMES * PREFIXES; k++) {
+        const int from = k % NAMES, to = k / NAMES % NAMES, p = k / NAMES / NAMES % PREFIXES;
+        char text[20], unit[UNIT_SIZE];
+        double value = NAN;
+        snprintf(text, sizeof text, "2 %s%s", prefix[p].name, names[from]);
+        assert_int_equal(host_units_open(&other).code, STATUS_OK);
+        const status s = host_quantity_read(other, text, names[to], &value, unit);
+        if ((s.code == STATUS_OK) != (from == to)) fail_msg("%s in %s: %s", text, names[to], s.text);
+        if (from == to && fabs(value - 2.0 * prefix[p].value) > 1e-14 * value) fail_msg("%s is %g", text, value);
+        host_units_close(other);
+    }
+    host_units_close(u);
+}
+
 static void words(void **state)
 {
     (void)state;
@@ -956,6 +983,7 @@ int main(void)
         cmocka_unit_test(manual_is_up_to_date),
         cmocka_unit_test(tables_are_sound),
         cmocka_unit_test(quantities),
+        cmocka_unit_test(conversions_do_not_mix),
         cmocka_unit_test(words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

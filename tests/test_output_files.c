@@ -568,21 +568,21 @@ static void table_takes_any_text(void **state)
 static void signals_ask_to_stop(void **state)
 {
     (void)state;
-    host_stop_install(NAN);
+    host_stop_install(host_wall_clock(), NAN);
     assert_false(host_stop_requested());
     assert_string_equal(host_stop_reason(), "");
     raise(SIGTERM);
     assert_true(host_stop_requested());
     assert_string_equal(host_stop_reason(), "SIGTERM");
-    host_stop_install(INFINITY);
+    host_stop_install(host_wall_clock(), INFINITY);
     assert_false(host_stop_requested());
     raise(SIGINT);
     assert_string_equal(host_stop_reason(), "SIGINT");
-    host_stop_install(1e-3);
+    host_stop_install(host_wall_clock(), 1e-3);
     usleep(3000);
     assert_true(host_stop_requested());
     assert_string_equal(host_stop_reason(), "--max-walltime reached");
-    host_stop_install(3600.0);
+    host_stop_install(host_wall_clock(), 3600.0);
     assert_false(host_stop_requested());
 }
 
@@ -591,7 +591,7 @@ static void second_interrupt_ends_it(void **state)
     (void)state;
     const pid_t child = fork();
     if (child == 0) {
-        host_stop_install(NAN);
+        host_stop_install(host_wall_clock(), NAN);
         raise(SIGINT);
         raise(SIGINT);
         _exit(0);
@@ -637,7 +637,7 @@ static void signals_leave_the_writer_alone(void **state)
     sigset_t stop, before;
     fresh_folder("behind");
     assert_int_equal(mkfifo("behind/a.part", 0666), 0);
-    host_stop_install(NAN);
+    host_stop_install(host_wall_clock(), NAN);
     sigemptyset(&stop), sigaddset(&stop, SIGTERM);
     background b = { .started = false };
     host_background_start(&b, (background_file[BACKGROUND_FILES]){ { "behind/a", "", 0 }, { "behind/b", "", 0 } });
@@ -649,7 +649,7 @@ static void signals_leave_the_writer_alone(void **state)
     assert_true(host_stop_requested());
     fclose(fopen("behind/a.part", "r"));
     host_background_wait(&b);
-    host_stop_install(NAN);
+    host_stop_install(host_wall_clock(), NAN);
 }
 
 int main(void)

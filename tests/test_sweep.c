@@ -138,6 +138,20 @@ static void test_stopped(void **state)
     OK(host_file_read("stopped/summary.json", &text, NULL));
     assert_non_null(strstr(text, "--max-walltime reached: before run 1 was read"));
     free(text);
+    /* the time counts from the program's start: it is over when two thousand runs have been read to be checked */
+    char volts[500] = "", masses[500] = "", arguments[1600];
+    for (int k = 0; k < 44; k++) {
+        snprintf(volts + strlen(volts), 12, "%s%d kV", k ? ", " : "", k + 1);
+        snprintf(masses + strlen(masses), 12, "%s%d kg", k ? ", " : "", k + 1);
+    }
+    snprintf(arguments, sizeof arguments,
+             "sweep " SHOT_CASE " -o stopped --force --quiet --max-walltime 0.03 --set sweep=\"{of: shot, vary: "
+             "[{key: bank.charge, values: [%s]}, {key: armature.mass, values: [%s]}]}\"",
+             volts, masses);
+    assert_int_equal(run(arguments), 75);
+    OK(host_file_read("stopped/summary.json", &text, NULL));
+    assert_non_null(strstr(text, "--max-walltime reached: before run 1 was read"));
+    free(text);
 }
 
 /* Bad input, exit code 2, and says so. */

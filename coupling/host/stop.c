@@ -19,7 +19,7 @@ static void on_signal(int number)
     signal_seen = number;
 }
 
-void host_stop_install(double max_walltime)
+void host_stop_install(double since, double max_walltime)
 {
     struct sigaction action;
     memset(&action, 0, sizeof action);
@@ -27,7 +27,7 @@ void host_stop_install(double max_walltime)
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     signal_seen = 0;
-    deadline = isnan(max_walltime) ? INFINITY : host_wall_clock() + max_walltime;
+    deadline = isnan(max_walltime) ? INFINITY : since + max_walltime;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 }

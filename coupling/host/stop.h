@@ -8,8 +8,8 @@
 
 #include <stdbool.h>
 
-/* Installs the handlers; max_walltime counts from here [s], INFINITY or NAN: no limit. */
-void host_stop_install(double max_walltime);
+/* Installs the handlers; max_walltime [s] counts from `since` on, of host_wall_clock [s]; INFINITY or NAN: no limit. */
+void host_stop_install(double since, double max_walltime);
 bool host_stop_requested(void);
 /* "SIGTERM", "SIGINT", "--max-walltime reached", or "" when none. */
 const char *host_stop_reason(void);

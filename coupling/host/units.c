@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/host/units.h"
 
+#include "coupling/host/hash.h"
+
 #include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
@@ -9,35 +11,62 @@
 #include <string.h>
 #include <udunits2.h>
 
-enum { NUMBER_SIZE = 64 };
+enum { NUMBER_SIZE = 64, REMEMBERED = 1024 };
+
+/* From one unit to another, as it was found out. */
+typedef struct {
+    char from[UNIT_SIZE], to[UNIT_SIZE]; /* "": the place is free */
+    bool known;                          /* `from` is a unit */
+    cv_converter *converter;             /* NULL: they are of different kinds; owned */
+} conversion;
 
 struct units {
     ut_system *system;
+    int users;
+    conversion *remembered; /* [REMEMBERED] by a hash of both names, a later one in the place of an older; owned */
 };
+
+/* All who have it open at a time share it. */
+static units *shared;
+
+static void conversion_forget(conversion *c)
+{
+    if (c->converter) cv_free(c->converter);
+    *c = (conversion){ .converter = NULL };
+}
 
 status host_units_open(units **out)
 {
-    *out = NULL;
-    ut_set_error_message_handler(ut_ignore);
-    ut_system *system = ut_read_xml(NULL);
-    CHECK(system, STATUS_IO,
-          "udunits2 cannot read its unit database (udunits2.xml): is the package libudunits2-data "
-          "installed, or UDUNITS2_XML_PATH set to another file?");
-    units *u = malloc(sizeof *u);
-    if (!u) {
-        ut_free_system(system);
-        return base_status_error(STATUS_MEMORY, "out of memory for the unit system");
+    *out = shared;
+    if (shared) {
+        shared->users++;
+        return status_ok();
     }
-    u->system = system;
-    *out = u;
+    ut_set_error_message_handler(ut_ignore);
+    units *u = calloc(1, sizeof *u);
+    conversion *remembered = calloc(REMEMBERED, sizeof *remembered);
+    ut_system *system = u && remembered ? ut_read_xml(NULL) : NULL;
+    if (!system) {
+        const bool memory = u && remembered;
+        free(u);
+        free(remembered);
+        CHECK(memory, STATUS_MEMORY, "out of memory for the unit system");
+        return base_status_error(STATUS_IO, "udunits2 cannot read its unit database (udunits2.xml): is the package "
+                                            "libudunits2-data installed, or UDUNITS2_XML_PATH set to another file?");
+    }
+    *u = (units){ .system = system, .users = 1, .remembered = remembered };
+    shared = *out = u;
     return status_ok();
 }
 
 void host_units_close(units *u)
 {
-    if (!u) return;
+    if (!u || --u->users > 0) return;
+    for (int i = 0; i < REMEMBERED; i++) conversion_forget(&u->remembered[i]);
     ut_free_system(u->system);
+    free(u->remembered);
     free(u);
+    shared = NULL;
 }
 
 static bool same(const char *a, const char *b)
@@ -212,19 +241,39 @@ static bool is_inverse(cv_converter *converter)
     return !isfinite(cv_convert_double(converter, 0.0));
 }
 
-static status convert(const units *u, double number, const char *from, const char *to, double *value)
+static void conversion_find(const units *u, const char *from, const char *to, conversion *out)
 {
     ut_unit *a = unit_parse(u, from), *b = unit_parse(u, to);
-    cv_converter *converter = a && b && ut_are_convertible(a, b) ? ut_get_converter(a, b) : NULL;
-    const bool known = a != NULL;
-    const bool done = converter && !is_inverse(converter);
-    if (done) *value = same(from, to) ? number : tidy(cv_convert_double(converter, number));
-    if (converter) cv_free(converter);
+    *out = (conversion){ .known = a != NULL };
+    snprintf(out->from, sizeof out->from, "%s", from);
+    snprintf(out->to, sizeof out->to, "%s", to);
+    if (a && b && ut_are_convertible(a, b)) out->converter = ut_get_converter(a, b);
+    if (out->converter && is_inverse(out->converter)) {
+        cv_free(out->converter);
+        out->converter = NULL;
+    }
     ut_free(a);
     ut_free(b);
     ut_set_status(UT_SUCCESS);
-    CHECK(known, STATUS_BAD_INPUT, "`%s` is not a known unit: write it in %s", from, to);
-    CHECK(done, STATUS_BAD_INPUT, "`%s` is not a unit of %s", from, to);
+}
+
+/* Both names are shorter than UNIT_SIZE. */
+static const conversion *conversion_of(const units *u, const char *from, const char *to)
+{
+    const uint64_t hash = host_hash_bytes(host_hash_bytes(0, from, strlen(from)), to, strlen(to));
+    conversion *c = &u->remembered[hash % REMEMBERED];
+    if (same(c->from, from) && same(c->to, to)) return c;
+    conversion_forget(c);
+    conversion_find(u, from, to, c);
+    return c;
+}
+
+static status convert(const units *u, double number, const char *from, const char *to, double *value)
+{
+    const conversion *c = conversion_of(u, from, to);
+    CHECK(c->known, STATUS_BAD_INPUT, "`%s` is not a known unit: write it in %s", from, to);
+    CHECK(c->converter, STATUS_BAD_INPUT, "`%s` is not a unit of %s", from, to);
+    *value = same(from, to) ? number : tidy(cv_convert_double(c->converter, number));
     return status_ok();
 }
 

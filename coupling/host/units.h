@@ -13,8 +13,10 @@
 
 enum { UNIT_SIZE = 48, LIMITS_SIZE = 160 };
 
-typedef struct units units; /* the unit system; read-only once open */
+typedef struct units units; /* the unit system; remembers how units are converted, so of one thread alone */
 
+/* Reads the unit database, which takes milliseconds, unless it is open already: then it is shared until the last one
+ * closes it.  Who reads many cases keeps it open all the while. */
 status host_units_open(units **out);
 void host_units_close(units *u); /* NULL allowed */
 

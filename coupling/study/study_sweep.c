@@ -214,6 +214,20 @@ static status find_study(const case_inputs *in, const study **out)
     return status_ok();
 }
 
+/* Each, for what is wrong with it. */
+static status read_runs(const study_case *of, const study *y)
+{
+    units *u;
+    status s = host_units_open(&u);
+    for (int i = 0; s.code == STATUS_OK && i < runs_of(&of->in->sweep); i++) {
+        case_inputs *in;
+        s = read_run(of, y, i, &in);
+        case_inputs_free(in);
+    }
+    host_units_close(u);
+    return s;
+}
+
 static status possible(const study_case *of)
 {
     const case_sweep *w = &of->in->sweep;
@@ -221,13 +235,7 @@ static status possible(const study_case *of)
     TRY(find_study(of->in, &y));
     TRY(check_values(w));
     TRY(check_outputs(w, y));
-    for (int i = 0; i < runs_of(w); i++) {
-        case_inputs *in;
-        const status s = read_run(of, y, i, &in);
-        case_inputs_free(in);
-        TRY(s);
-    }
-    return status_ok();
+    return read_runs(of, y);
 }
 
 /* ---- the runs ---- */
@@ -428,16 +436,10 @@ static status write_csv(const session *s, const sweep_answer *a)
 
 /* ---- the whole ---- */
 
-static status sweep(session *s, const study_case *of, sweep_answer *a)
+/* What is known before the first run; the units are open all the while, as each case that is read needs them. */
+static status fill(const session *s, const study_case *of, const units *u, sweep_answer *a)
 {
-    const case_sweep *w = &of->in->sweep;
-    units *u;
-    TRY(find_study(of->in, &a->of));
-    choose_outputs(w, a);
-    TRY(make_room(w, a));
-    TRY(host_units_open(&u));
-    fill_inputs(u, w, a);
-    host_units_close(u);
+    fill_inputs(u, &of->in->sweep, a);
     a->result.n_units = a->keys + a->outputs;
     a->result.units = a->unit;
     a->result.run = a->run;
@@ -447,13 +449,26 @@ static status sweep(session *s, const study_case *of, sweep_answer *a)
         snprintf(a->prefix[i], sizeof a->prefix[i], "s%d-", i + 1);
         TRY(read_run(of, a->of, i, &a->in[i]));
     }
+    return status_ok();
+}
+
+static status sweep(session *s, const study_case *of, sweep_answer *a)
+{
+    units *u;
+    TRY(find_study(of->in, &a->of));
+    choose_outputs(&of->in->sweep, a);
+    TRY(make_room(&of->in->sweep, a));
+    TRY(host_units_open(&u));
+    const status read = fill(s, of, u, a);
+    host_units_close(u);
+    TRY(read);
     TRY(run_scenes(s, a));
     for (int i = 0; i < a->runs; i++) {
         const study_case one = case_of_run(a, i);
         TRY(a->of->run(s, &one, &a->answer[i]));
         fill_run(a, i);
     }
-    fill_errors(w, a);
+    fill_errors(&of->in->sweep, a);
     return status_ok();
 }
 
