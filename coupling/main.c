@@ -176,8 +176,9 @@ static int carry_out(const options *o, const case_inputs *in, session *s)
     const status closed = run_session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
     if (y->free) y->free(answer.owned); /* scenes may be made of its cases until then */
     if (report) draw_report(path);
-    if (work.code != STATUS_OK) return work.code == STATUS_STOPPED ? EXIT_STOPPED : complain(work);
-    return complain(written.code != STATUS_OK ? written : closed);
+    if (work.code != STATUS_OK && work.code != STATUS_STOPPED) return complain(work);
+    const status last = written.code != STATUS_OK ? written : closed;
+    return last.code == STATUS_OK ? exit_code(work) : complain(last);
 }
 
 /* Scenes of this size that the machine holds side by side: each process may have put one off for another. */

@@ -137,12 +137,55 @@ static void test_max_walltime(void **state)
     assert_true(contains("out.txt", "finished already"));
 }
 
+/* Searches for firing times that give up early and say so. */
+#define SEARCHES                                                                                                  \
+    "sweep " CASES "/flat_current --quiet --set output.report=no --set optimise.evaluations=5 --set sweep='{of: " \
+    "shot, vary: [{key: armature.mass, values: [240 g, 250 g, 260 g, 270 g, 280 g, 290 g]}], read: "              \
+    "[muzzle_velocity, melt_position, optimise_after]}' "
+
+static const cJSON *runs_of(const cJSON *summary)
+{
+    return cJSON_GetObjectItemCaseSensitive(summary, "sweep");
+}
+
+/* A sweep stopped again and again: what it has come to stays, down to the time it took, and the end is that of a sweep
+ * in one go. */
+static void test_sweep(void **state)
+{
+    (void)state;
+    char arguments[1000];
+    double seconds[6] = { 0.0 }, time = 0.1;
+    int code = 75, known = 0, stops = 0;
+    fresh_folder("swept");
+    assert_int_equal(run(SEARCHES "-o swept/whole"), 0);
+    cJSON *whole = summary_of("swept/whole"), *part = NULL;
+    for (; code == 75; time *= 1.4) {
+        snprintf(arguments, sizeof arguments, SEARCHES "-o swept/part --resume --max-walltime %g", time);
+        code = run(arguments);
+        cJSON_Delete(part);
+        part = summary_of("swept/part");
+        const int n = cJSON_GetArraySize(runs_of(part));
+        assert_true(n >= known && (code == 75 || (code == 0 && n == 6)));
+        for (int i = 0; i < n; i++) {
+            const double now = number(cJSON_GetArrayItem(runs_of(part), i), "wall_seconds");
+            if (i < known && now != seconds[i]) fail_msg("run %d was run again", i + 1);
+            seconds[i] = now;
+        }
+        stops += n > known && code == 75;
+        known = n;
+    }
+    print_message("stopped %d times between runs\n", stops);
+    assert_true(stops > 0);
+    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(whole, "warnings")), 6);
+    assert_same(whole, part);
+    cJSON_Delete(whole);
+    cJSON_Delete(part);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stop_and_resume),
-        cmocka_unit_test(test_strike),
-        cmocka_unit_test(test_max_walltime),
-    };
+        cmocka_unit_test(test_stop_and_resume), cmocka_unit_test(test_strike), cmocka_unit_test(test_max_walltime),
+        cmocka_unit_test(test_sweep),       };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

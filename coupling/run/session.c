@@ -134,6 +134,7 @@ status run_session_close(session *s, bool finished)
     host_progress_close(&s->progress);
     run_crew_free(s->crew, finished);
     s->crew = NULL;
+    const status noted = finished ? status_ok() : run_session_note_save(s);
     const status done = output_history_close(s->history);
     if (finished && s->dir.lock >= 0 && run_session_checkpoint_path(s, path).code == STATUS_OK) unlink(path);
     host_outdir_close(&s->dir);
@@ -141,10 +142,13 @@ status run_session_close(session *s, bool finished)
     scene_shelf_clear(&s->shelf);
     for (int i = 0; i < s->n_records; i++) free(s->record[i]);
     free(s->record);
+    run_session_note_drop(s, "");
+    free(s->note);
     free(s->warnings);
     s->history = NULL;
     s->record = NULL;
     s->n_records = 0;
+    s->note = NULL;
     s->warnings = NULL;
-    return done;
+    return noted.code == STATUS_OK ? done : noted;
 }

@@ -3,7 +3,8 @@
  * timing, checkpoints, the scenes computed so far.
  *
  * The scenes of the run (scenes.h asks for them) are part of every checkpoint, so that a resumed run computes none
- * twice and goes on inside the one it was stopped in, bit for bit. */
+ * twice and goes on inside the one it was stopped in, bit for bit.  So are the notes of its study: what else it does
+ * not wish to compute twice. */
 #ifndef BREECH_COUPLING_SESSION_H
 #define BREECH_COUPLING_SESSION_H
 
@@ -19,6 +20,13 @@ typedef struct {
     uint64_t key;              /* hash of all that decides it, scene_key.h */
     bool of_bodies;            /* no more of the entry than its name; the result lies by its series (scene_bodies.h) */
 } scene_record;
+
+/* What a study has worked out besides scenes. */
+typedef struct {
+    char name[SUMMARY_NAME_SIZE];
+    size_t bytes;
+    char *data; /* bytes and a 0 behind them, owned */
+} session_note;
 
 typedef struct {
     outdir dir;
@@ -38,7 +46,11 @@ typedef struct {
     scene_shelf shelf;            /* of this process */
     int n_records;
     scene_record **record; /* in the order they came; owned, one by one */
-    char *warnings;        /* a line each, owned */
+    int n_notes;
+    session_note *note;         /* owned */
+    bool notes_unsaved;         /* the checkpoint on the disk lacks some of them */
+    double saved, save_seconds; /* when the last checkpoint was written, of host_wall_clock; what that took [s] */
+    char *warnings;             /* a line each, owned */
 } session;
 
 typedef struct {
@@ -59,7 +71,8 @@ typedef struct {
  * s->dir.state OUTDIR_FINISHED: nothing to do.  STATUS_BAD_INPUT: what is to be resumed is of another command, case or
  * values; it stays as it is.  run_session_close is due in any case. */
 status run_session_open(const case_inputs *in, const session_options *o, session *s);
-/* Flushes the history, frees all.  finished: the checkpoint has served. */
+/* Writes what the checkpoint lacks of the notes, flushes the history, frees all.  finished: the checkpoint has
+ * served. */
 status run_session_close(session *s, bool finished);
 
 double run_session_wall(const session *s); /* spent by the run, the stopped parts too [s] */
@@ -68,6 +81,21 @@ void run_session_warn(session *s, const char *format, ...) __attribute__((format
 /* For run_session_open and _close: where the checkpoint lies; takes up what it holds. */
 status run_session_checkpoint_path(const session *s, char path[OUTDIR_PATH_SIZE]);
 status run_session_take_up(session *s);
+
+/* The note of that name; NULL: there is none.  Borrowed until the next is added or dropped. */
+const session_note *run_session_note(const session *s, const char *name);
+/* Puts a copy of the bytes behind those that the note of that name has.  Writes a checkpoint unless the last one was
+ * written a moment ago: a run that is killed loses a few seconds, one that is stopped or fails nothing. */
+status run_session_note_add(session *s, const char *name, const void *bytes, size_t n);
+/* Forgets all notes whose names begin so. */
+void run_session_note_drop(session *s, const char *beginning);
+/* Writes a checkpoint with them, where the one on the disk lacks some; for run_session_close. */
+status run_session_note_save(session *s);
+/* The same without a checkpoint. */
+status run_session_note_append(session *s, const char *name, const void *bytes, size_t n);
+/* For the checkpoint: all of them, malloc'ed; takes up what that gave, of the given number of them. */
+status run_session_notes_pack(const session *s, char **out, size_t *bytes);
+status run_session_notes_unpack(session *s, const char *from, size_t bytes, size_t notes);
 
 /* Takes a copy of the record, flushes the history, writes the checkpoint. */
 status run_session_keep(session *s, const scene_record *fresh);

@@ -240,16 +240,18 @@ static status possible(const study_case *of)
 
 /* ---- the runs ---- */
 
+typedef char run_prefix[16]; /* of its scenes' and notes' names */
+
 typedef struct {
     sweep_result result; /* borrows the rest */
     const study *of;
     int runs, keys, outputs;
     const char *output[MOST_OUTPUTS];                  /* paths of numbers, borrowed */
     char output_unit[MOST_OUTPUTS][SUMMARY_NAME_SIZE]; /* of the first run */
-    case_inputs **in;                                  /* [runs], owned one by one, as all that follows */
-    study_answer *answer;                              /* [runs] */
-    char (*prefix)[16];                                /* [runs] */
-    sweep_run *run;                                    /* [runs] */
+    case_inputs **in;     /* [runs], NULL: noted before; owned one by one, as all that follows */
+    study_answer *answer; /* [runs] */
+    run_prefix *prefix;   /* [runs] */
+    sweep_run *run;       /* [runs] */
     summary_pair *input, *value, *error, *unit;
 } sweep_answer;
 
@@ -295,14 +297,14 @@ static study_case case_of_run(const sweep_answer *a, int i)
     return (study_case){ .in = a->in[i], .one_of_several = true, .prefix = a->prefix[i] };
 }
 
-/* The scenes that are certain, of all runs at once: any process may take any of them. */
+/* The scenes that are certain, of all runs left at once: any process may take any of them. */
 static status run_scenes(session *s, const sweep_answer *a)
 {
     scene_query *query = malloc((size_t)a->runs * sizeof *query);
     const scene_record **record = malloc((size_t)a->runs * sizeof *record);
     status done = query && record ? status_ok() : base_status_error(STATUS_MEMORY, "no memory for %d runs", a->runs);
     int n = 0;
-    for (int i = 0; done.code == STATUS_OK && a->of->scenes && i < a->runs; i++) {
+    for (int i = a->result.n_runs; done.code == STATUS_OK && a->of->scenes && i < a->runs; i++) {
         const study_case of = case_of_run(a, i);
         n += a->of->scenes(&of, &query[n]);
     }
@@ -329,20 +331,85 @@ static void fill_inputs(const units *u, const case_sweep *w, sweep_answer *a)
         a->unit[a->keys + k] = (summary_pair){ .name = a->output[k], .text = a->output_unit[k] };
 }
 
-static void fill_run(sweep_answer *a, int i)
+static void fill_output(sweep_answer *a, int i, int k, double value)
 {
-    const summary_object result = { a->of->keys, a->answer[i].result };
-    for (int k = 0; k < a->outputs; k++) {
-        const double value = output_number_of(&result, a->output[k], a->output_unit[k]);
-        a->value[i * a->outputs + k] = (summary_pair){ .name = a->output[k], .value = value };
-    }
+    a->value[i * a->outputs + k] = (summary_pair){ .name = a->output[k], .value = value };
+}
+
+static void fill_run(sweep_answer *a, int i, double wall_seconds)
+{
     a->run[i] = (sweep_run){ .n_inputs = a->keys,
                              .inputs = a->input + i * a->keys,
                              .n_outputs = a->outputs,
                              .outputs = a->value + i * a->outputs,
                              .errors = a->error + i * a->outputs,
-                             .wall_seconds = output_number_of(&result, "wall_seconds", NULL) };
+                             .wall_seconds = wall_seconds };
     a->result.n_runs = i + 1;
+}
+
+/* ---- what came out is noted, so that a resumed sweep does not run it again: the time, each output with its unit, the
+ * warnings, a line each, numbers with all their bits ---- */
+
+static void note_name(const sweep_answer *a, int i, char name[SUMMARY_NAME_SIZE])
+{
+    snprintf(name, SUMMARY_NAME_SIZE, "%srun", a->prefix[i]);
+}
+
+/* warnings: those of the run alone. */
+static status note_run(session *s, const sweep_answer *a, int i, const char *warnings)
+{
+    char name[SUMMARY_NAME_SIZE], *text = NULL;
+    size_t bytes = 0;
+    FILE *f = open_memstream(&text, &bytes);
+    CHECK(f, STATUS_MEMORY, "no memory to note run %d", i + 1);
+    fprintf(f, "%a\n", a->run[i].wall_seconds);
+    for (int k = 0; k < a->outputs; k++) fprintf(f, "%a %s\n", a->run[i].outputs[k].value, a->output_unit[k]);
+    fputs(warnings, f);
+    const bool closed = fclose(f) == 0;
+    note_name(a, i, name);
+    run_session_note_drop(s, a->prefix[i]); /* of what led there */
+    const status done = closed ? run_session_note_add(s, name, text, bytes)
+                               : base_status_error(STATUS_MEMORY, "no memory to note run %d", i + 1);
+    free(text);
+    return done;
+}
+
+/* What the note of the next run says, once more; false: there is none. */
+static bool take_note(session *s, sweep_answer *a, int i)
+{
+    char name[SUMMARY_NAME_SIZE];
+    note_name(a, i, name);
+    const session_note *note = run_session_note(s, name);
+    if (!note) return false;
+    const char *at = note->data;
+    char *end;
+    const double wall_seconds = strtod(at, &end);
+    at = end + (*end == '\n');
+    for (int k = 0; k < a->outputs; k++) {
+        fill_output(a, i, k, strtod(at, &end));
+        const char *unit = end + (*end == ' ');
+        const int length = (int)strcspn(unit, "\n");
+        if (length > 0) snprintf(a->output_unit[k], SUMMARY_NAME_SIZE, "%.*s", length, unit);
+        at = unit + length + (unit[length] == '\n');
+    }
+    for (int length; *at; at += length + (at[length] == '\n')) {
+        length = (int)strcspn(at, "\n");
+        run_session_warn(s, "%.*s", length, at);
+    }
+    fill_run(a, i, wall_seconds);
+    return true;
+}
+
+static status run_one(session *s, sweep_answer *a, int i)
+{
+    const size_t warned = strlen(s->warnings);
+    const study_case one = case_of_run(a, i);
+    TRY(a->of->run(s, &one, &a->answer[i]));
+    const summary_object result = { a->of->keys, a->answer[i].result };
+    for (int k = 0; k < a->outputs; k++)
+        fill_output(a, i, k, output_number_of(&result, a->output[k], a->output_unit[k]));
+    fill_run(a, i, output_number_of(&result, "wall_seconds", NULL));
+    return note_run(s, a, i, s->warnings + warned);
 }
 
 /* 1: a larger value is finer, -1: a smaller one, 0: not a resolution. */
@@ -437,16 +504,17 @@ static status write_csv(const session *s, const sweep_answer *a)
 /* ---- the whole ---- */
 
 /* What is known before the first run; the units are open all the while, as each case that is read needs them. */
-static status fill(const session *s, const study_case *of, const units *u, sweep_answer *a)
+static status fill(session *s, const study_case *of, const units *u, sweep_answer *a)
 {
     fill_inputs(u, &of->in->sweep, a);
     a->result.n_units = a->keys + a->outputs;
     a->result.units = a->unit;
     a->result.run = a->run;
     snprintf(a->result.of, sizeof a->result.of, "%s", a->of->name);
-    for (int i = 0; i < a->runs; i++) {
+    for (int i = 0; i < a->runs; i++) snprintf(a->prefix[i], sizeof a->prefix[i], "s%d-", i + 1);
+    while (a->result.n_runs < a->runs && take_note(s, a, a->result.n_runs)) continue;
+    for (int i = a->result.n_runs; i < a->runs; i++) {
         CHECK(!s->stop || !s->stop(), STATUS_STOPPED, "before run %d was read", i + 1);
-        snprintf(a->prefix[i], sizeof a->prefix[i], "s%d-", i + 1);
         TRY(read_run(of, a->of, i, &a->in[i]));
     }
     return status_ok();
@@ -463,11 +531,7 @@ static status sweep(session *s, const study_case *of, sweep_answer *a)
     host_units_close(u);
     TRY(read);
     TRY(run_scenes(s, a));
-    for (int i = 0; i < a->runs; i++) {
-        const study_case one = case_of_run(a, i);
-        TRY(a->of->run(s, &one, &a->answer[i]));
-        fill_run(a, i);
-    }
+    for (int i = a->result.n_runs; i < a->runs; i++) TRY(run_one(s, a, i));
     fill_errors(&of->in->sweep, a);
     return status_ok();
 }
