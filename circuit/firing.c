@@ -37,7 +37,7 @@ typedef struct {
     circuit_shot_module *modules;     /* of the trial under way */
     int n, *moved, n_moved;           /* groups; those whose time is moved */
     int most;                         /* trials so far: what is asked for beyond is as bad as can be */
-    bool (*stop)(void);
+    const circuit_firing_host *host;
     circuit_firing_result *out;
     double scale; /* of the charges, last trial */
     status failed;
@@ -67,12 +67,17 @@ static bool on_sample(void *user, const circuit_shot *s, const circuit_shot_stat
     return st->phase != CIRCUIT_SHOT_LEFT;
 }
 
+static void set_charges(search *q, double scale)
+{
+    for (int k = 0; k < q->n; k++) q->modules[k].charge = scale * q->given[k].charge;
+}
+
 /* Ends with STATUS_STOPPED at the muzzle.  *travel: fraction of the barrel that was covered. */
 static status run(search *q, double scale, flatness *f, circuit_shot_summary *result, double *travel)
 {
     const circuit_shot_barrel *b = &q->config.barrel;
     circuit_shot *s = NULL;
-    for (int k = 0; k < q->n; k++) q->modules[k].charge = scale * q->given[k].charge;
+    set_charges(q, scale);
     *f = (flatness){ .x = b->start, .peak = q->wish.peak_current };
     const circuit_shot_sink sink = { .sample = on_sample, .user = f };
     q->out->shots++;
@@ -168,19 +173,39 @@ static status measure_velocity(search *q, double *value)
 
 static const double WORST = 1e300; /* GSL does not accept infinities, but of a search that is to end */
 
+/* One that was run before the search was stopped. */
+static double take_known(search *q, const circuit_firing_trial *t)
+{
+    q->scale = t->charge_scale;
+    q->out->shots = (int)t->shots;
+    set_charges(q, q->scale);
+    return t->value;
+}
+
+static status run_trial(search *q, double *value)
+{
+    TRY(q->wish.goal == CIRCUIT_FIRING_FLAT ? measure_flat(q, value) : measure_velocity(q, value));
+    const circuit_firing_trial t = { *value, q->scale, q->out->shots };
+    return q->host->keep ? q->host->keep(q->host->user, &t) : status_ok();
+}
+
 static double measure(const gsl_vector *times, void *user)
 {
     search *q = user;
     double value = INFINITY;
     if (q->failed.code != STATUS_OK) return value;
     if (q->out->evaluations == q->most) return WORST;
-    if (q->stop && q->stop()) {
+    const bool known = q->out->evaluations < q->host->n_known;
+    if (!known && q->host->stop && q->host->stop()) {
         q->failed = base_status_error(STATUS_STOPPED, "the search for firing times was stopped");
         return value;
     }
     for (int k = 0; k < q->n_moved; k++) q->modules[q->moved[k]].fire_at = fabs(gsl_vector_get(times, (size_t)k));
-    q->out->evaluations++;
-    q->failed = q->wish.goal == CIRCUIT_FIRING_FLAT ? measure_flat(q, &value) : measure_velocity(q, &value);
+    const int trial = q->out->evaluations++;
+    if (known)
+        value = take_known(q, &q->host->known[trial]);
+    else
+        q->failed = run_trial(q, &value);
     return isfinite(value) ? value : WORST;
 }
 
@@ -283,6 +308,12 @@ status circuit_firing_check(const circuit_shot_config *c, const circuit_firing_w
 status circuit_firing_optimise(const circuit_shot_config *c, const circuit_firing_wish *wish, bool (*stop)(void),
                                circuit_shot_module *modules, circuit_firing_result *out)
 {
+    return circuit_firing_resume(c, wish, &(circuit_firing_host){ .stop = stop }, modules, out);
+}
+
+status circuit_firing_resume(const circuit_shot_config *c, const circuit_firing_wish *wish,
+                             const circuit_firing_host *host, circuit_shot_module *modules, circuit_firing_result *out)
+{
     const circuit_supply_list *bank = &c->supplies[CIRCUIT_SUPPLY_capacitor];
     const size_t n = bank->n > 0 ? (size_t)bank->n : 1;
     circuit_rails_load load;
@@ -294,7 +325,7 @@ status circuit_firing_optimise(const circuit_shot_config *c, const circuit_firin
                  .modules = modules,
                  .n = bank->n,
                  .most = wish->evaluations - 1, /* the last is that of the best times */
-                 .stop = stop,
+                 .host = host,
                  .out = out,
                  .scale = 1.0,
                  .failed = status_ok() };

@@ -10,6 +10,8 @@
 
 #include "circuit/shot.h"
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -38,6 +40,21 @@ typedef struct {
     int evaluations, shots; /* of the objective; shots that were run for them */
 } circuit_firing_result;
 
+/* A trial of the search: what it measured, and from what the next one goes on. */
+typedef struct {
+    double value, charge_scale;
+    int64_t shots; /* run so far */
+} circuit_firing_trial;
+
+typedef struct {
+    bool (*stop)(void); /* true ends the search, BASE_STATUS_STOPPED; NULL: never */
+    int n_known;
+    const circuit_firing_trial *known; /* n_known, the first of the same search: taken as they are, not run again */
+    /* Told of every trial that was run, in their order; an error that it returns ends the search.  NULL: no one is. */
+    base_status (*keep)(void *user, const circuit_firing_trial *trial);
+    void *user;
+} circuit_firing_host;
+
 /* BASE_STATUS_BAD_INPUT: no group's time can move (flat), none fires (velocity), or the goal's number is missing. */
 base_status circuit_firing_check(const circuit_shot_config *c, const circuit_firing_wish *wish);
 
@@ -46,6 +63,10 @@ base_status circuit_firing_check(const circuit_shot_config *c, const circuit_fir
  * stop (may be NULL): true ends the search, BASE_STATUS_STOPPED. */
 base_status circuit_firing_optimise(const circuit_shot_config *c, const circuit_firing_wish *wish, bool (*stop)(void),
                                     circuit_shot_module *modules, circuit_firing_result *out);
+/* The same of a search whose trials are kept: one that was stopped goes on from them, to the same bits. */
+base_status circuit_firing_resume(const circuit_shot_config *c, const circuit_firing_wish *wish,
+                                  const circuit_firing_host *host, circuit_shot_module *modules,
+                                  circuit_firing_result *out);
 
 #ifdef __cplusplus
 }

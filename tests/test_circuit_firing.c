@@ -159,6 +159,50 @@ static void stopped_at_any_trial(void **state)
     }
 }
 
+enum { MOST_TRIALS = 40 };
+
+typedef struct {
+    circuit_firing_trial trial[MOST_TRIALS];
+    int n;
+} trial_list;
+
+static status keep(void *user, const circuit_firing_trial *t)
+{
+    trial_list *l = user;
+    assert_true(l->n < MOST_TRIALS);
+    l->trial[l->n++] = *t;
+    return status_ok();
+}
+
+/* One that goes on from any of its trials finds what one in one go finds, to the bit, and runs no trial twice. */
+static void resumed_at_any_trial(void **state)
+{
+    (void)state;
+    for (int goal = CIRCUIT_FIRING_FLAT; goal <= CIRCUIT_FIRING_VELOCITY; goal++) {
+        circuit_shot_module m[GROUPS], found[GROUPS], again[GROUPS];
+        circuit_firing_result r, other;
+        const circuit_shot_config c = three_groups(m);
+        circuit_firing_wish w = wish_of((circuit_firing_goal)goal);
+        w.peak_current = 5e5, w.muzzle_velocity = 900.0, w.evaluations = 9;
+        trial_list all = { .n = 0 };
+        OK(circuit_firing_resume(&c, &w, &(circuit_firing_host){ .keep = keep, .user = &all }, found, &r));
+        assert_int_equal(all.n, r.evaluations);
+        for (int known = 0; known <= all.n; known++) {
+            trial_list rest = { .n = 0 };
+            OK(circuit_firing_resume(
+                &c, &w, &(circuit_firing_host){ .n_known = known, .known = all.trial, .keep = keep, .user = &rest },
+                again, &other));
+            assert_int_equal(rest.n, all.n - known);
+            assert_memory_equal(rest.trial, all.trial + known, (size_t)rest.n * sizeof rest.trial[0]);
+            assert_true(other.before == r.before && other.after == r.after && other.charge_scale == r.charge_scale &&
+                        other.stored_energy == r.stored_energy && other.evaluations == r.evaluations &&
+                        other.shots == r.shots);
+            for (int k = 0; k < GROUPS; k++)
+                assert_true(again[k].fire_at == found[k].fire_at && again[k].charge == found[k].charge);
+        }
+    }
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -179,9 +223,13 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(flat_below_a_peak),    cmocka_unit_test(velocity_at_least_energy),
-        cmocka_unit_test(charge_of_one_group),  cmocka_unit_test(keeps_its_budget),
-        cmocka_unit_test(stopped_at_any_trial), cmocka_unit_test(refusals),
+        cmocka_unit_test(flat_below_a_peak),
+        cmocka_unit_test(velocity_at_least_energy),
+        cmocka_unit_test(charge_of_one_group),
+        cmocka_unit_test(keeps_its_budget),
+        cmocka_unit_test(stopped_at_any_trial),
+        cmocka_unit_test(resumed_at_any_trial),
+        cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

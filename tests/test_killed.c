@@ -55,6 +55,7 @@ static void assert_as_whole(const char *what)
 #define SHOTS                                                                                               \
     "sweep " CASES "/pulse_unit_200kJ --quiet --set output.report=no --set sweep='{of: shot, vary: [{key: " \
     "bank.charge, values: [5 kV, 6 kV, 7 kV]}, {key: title, values: [one, two]}], read: [peak_current, action]}' "
+#define SEARCH "shot " CASES "/flat_current --quiet --set output.report=no --set optimise.evaluations=6 "
 
 /* Killed there, then resumed to its end; false: there is no such instant. */
 static bool try_kill_of(const char *resumed, const char *arguments, const char *at, int count, int after)
@@ -109,16 +110,17 @@ static void test_ending(void **state)
     assert_true(!full_tests() || n > 8);
 }
 
-/* A sweep of shots keeps what it has worked out as it goes: the first run, later what the seconds between two
- * checkpoints brought. */
+/* A sweep of shots and a search for firing times keep what they have worked out as they go: the first run, the first
+ * trial, later what the seconds between two checkpoints brought. */
 static void test_without_scenes(void **state)
 {
     (void)state;
     static const char *const files[] = { "part/checkpoint.bin", "part/summary.json" };
     static const char *const of[][3] = {
         { SHOTS "-o killed/whole", SHOTS "-o killed/part", SHOTS "-o killed/part --resume" },
+        { SEARCH "-o killed/whole", SEARCH "-o killed/part", SEARCH "-o killed/part --resume" },
     };
-    for (int k = 0; k < 1; k++) {
+    for (int k = 0; k < 2; k++) {
         fresh_folder("killed");
         assert_int_equal(run(of[k][0]), 0);
         for (int i = 0; i < 2; i++)

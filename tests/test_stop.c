@@ -182,10 +182,29 @@ static void test_sweep(void **state)
     cJSON_Delete(part);
 }
 
+/* A search that is stopped has left its trials. */
+static void test_search(void **state)
+{
+    (void)state;
+    fresh_folder("searched");
+#define SEARCH "shot " CASES "/flat_current --quiet --set output.report=no --set optimise.evaluations=30 "
+    assert_int_equal(run(SEARCH "-o searched/whole"), 0);
+    assert_int_equal(run(SEARCH "-o searched/part --max-walltime 0.2"), 75);
+    assert_true(exists("searched/part/checkpoint.bin"));
+    assert_int_equal(run(SEARCH "-o searched/part --resume"), 0);
+    assert_false(exists("searched/part/checkpoint.bin"));
+#undef SEARCH
+    cJSON *whole = summary_of("searched/whole"), *part = summary_of("searched/part");
+    assert_same(whole, part);
+    cJSON_Delete(whole);
+    cJSON_Delete(part);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stop_and_resume), cmocka_unit_test(test_strike), cmocka_unit_test(test_max_walltime),
-        cmocka_unit_test(test_sweep),       };
+        cmocka_unit_test(test_sweep),           cmocka_unit_test(test_search),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,8 +15,10 @@ typedef struct {
     circuit_firing_result is;
 } firing_found;
 
-/* The flight's bank becomes the one that is found, which borrows from `out`.  study_firing_free even on error. */
-status study_firing_find(session *s, const circuit_firing_wish *wish, case_flight *flight, firing_found *out);
+/* The flight's bank becomes the one that is found, which borrows from `out`.  study_firing_free even on error.  The
+ * trials are noted under a name that begins with `prefix`, so that a resumed search does not run them again. */
+status study_firing_find(session *s, const circuit_firing_wish *wish, const char *prefix, case_flight *flight,
+                         firing_found *out);
 void study_firing_free(firing_found *f);
 
 /* Says in the record what was found; it borrows the times.  Warns where the current exceeds what was wished. */

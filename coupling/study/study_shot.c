@@ -25,7 +25,7 @@ static status run(session *s, const study_case *of, study_answer *out)
     CHECK(a, STATUS_MEMORY, "no memory for a shot");
     case_flight flight = case_flight_of(&of->in->onset);
     shot_outcome o;
-    if (of->in->given.optimise) TRY(study_firing_find(s, &of->in->optimise, &flight, &a->firing));
+    if (of->in->given.optimise) TRY(study_firing_find(s, &of->in->optimise, of->prefix, &flight, &a->firing));
     const status done = gouge_session_shot(s, &flight, NULL, !of->one_of_several, &o, &a->record);
     gouge_shot_outcome_free(&o);
     if (of->in->given.optimise) study_firing_record(s, &of->in->optimise, &a->firing, &a->record);

@@ -167,7 +167,7 @@ static status arrive(session *s, const study_case *of, double wanted, strike_ans
     case_flight launched = case_flight_of(&in->onset);
     const circuit_firing_wish wish = wish_for(in, a->projectile.mass, wanted);
     shot_outcome o;
-    if (in->given.optimise) TRY(study_firing_find(s, &wish, &launched, &a->firing));
+    if (in->given.optimise) TRY(study_firing_find(s, &wish, of->prefix, &launched, &a->firing));
     const status done = gouge_session_shot(s, &launched, NULL, !of->one_of_several, &o, &a->shot);
     gouge_shot_outcome_free(&o);
     TRY(done);
