@@ -229,7 +229,7 @@ static int run_expect(const options *o)
     table *t = NULL;
     const status read = read_case(o, NULL, 0, &in);
     if (read.code != STATUS_OK) return exit_code(read);
-    status s = output_expect(in->path, o->line.expect, &e);
+    status s = output_expect(in->path, o->line.expect, study_tables, &e);
     if (s.code == STATUS_OK) s = host_table_create("key|expected|found|deviation|", &t);
     for (int i = 0; i < e.n && s.code == STATUS_OK; i++) {
         const expectation *x = &e.item[i];

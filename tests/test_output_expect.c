@@ -19,12 +19,14 @@ static const char SUMMARY[] =
     " \"scenes\": [{\"name\": \"a\", \"v\": 1500}, {\"name\": \"b\", \"v\": 1600}],"
     " \"ranking\": [{\"surface\": \"as it is\", \"v\": 700}, {\"surface\": \"warm rail\", \"v\": 640}]}";
 
+static const char *summary = SUMMARY; /* that is compared with */
+
 static status compare(const char *list, expectations *e)
 {
     assert_int_equal(host_folder_make("run").code, STATUS_OK);
-    assert_int_equal(host_file_write("run/summary.json", SUMMARY, strlen(SUMMARY)).code, STATUS_OK);
+    assert_int_equal(host_file_write("run/summary.json", summary, strlen(summary)).code, STATUS_OK);
     assert_int_equal(host_file_write("expected.yaml", list, strlen(list)).code, STATUS_OK);
-    return output_expect("case.yaml", "run", e);
+    return output_expect("case.yaml", "run", study_tables, e);
 }
 
 /* One expectation: does it hold? */
@@ -156,6 +158,48 @@ static void test_units_agree(void **state)
     assert_true(holds("key: crater_depth, value: 0.5 mm, within: 20 %, at_least: 540 um"));
 }
 
+/* The unit is the summary's, which its kind's tables, its probes and a sweep say: one of the same kind is converted,
+ * one of another is refused however right its number is. */
+static void test_unit_of_the_summary(void **state)
+{
+    (void)state;
+    summary =
+        "{\"kind\": \"bodies\", \"peak_pressure\": 5e9, \"steps\": 30, \"energy_error\": 0.02,"
+        " \"bodies\": {\"ball.1\": {\"velocity\": [3, 0, 0], \"failed_volume\": 2e-9}},"
+        " \"probes\": {\"push\": {\"kind\": \"force\", \"unit\": \"N\", \"peak\": 40, \"impulse\": [7, 0, 0],"
+        " \"last\": {\"force_x\": 6}}, \"warm\": {\"kind\": \"pressure\", \"unit\": \"K\", \"impulse\": [5, 0, 0]}}}";
+    assert_true(holds("key: peak_pressure, value: 5 GPa, within: 0.1 %"));
+    assert_true(holds("key: peak_pressure, value: 50 kbar, within: 1 MPa, at_least: 0, at_most: .inf"));
+    refused("key: peak_pressure, value: 5e9 m, within: 1 m", "value = 5e9 m: must be in a unit of Pa");
+    refused("key: peak_pressure, value: 5e9, within: 1 %", "value = 5e9: must be in a unit of Pa");
+    refused("key: peak_pressure, value: 5 GPa, within: 1 s", "within = 1 s: must be in a unit of Pa");
+    refused("key: peak_pressure, at_most: 0 s", "at_most = 0 s: must be in a unit of Pa");
+    assert_true(holds("key: steps, value: 30, within: 0"));
+    refused("key: steps, value: 30 m, within: 0", "must be in a unit of 1");
+    assert_true(holds("key: energy_error, at_most: 2 %"));
+    refused("key: energy_error, at_most: 2 m", "must be in a unit of 1");
+    assert_true(holds("key: 'bodies[ball.1].velocity[0]', value: 0.003 km/s, within: 0 m/s"));
+    refused("key: 'bodies[ball.1].velocity[0]', value: 3 m, within: 0", "must be in a unit of m/s");
+    assert_true(holds("key: 'bodies[ball.1].failed_volume', value: 2 mm3, within: 0"));
+    assert_true(holds("key: probes.push.peak, at_least: 0.04 kN"));
+    refused("key: probes.push.peak, at_least: 40 J", "must be in a unit of N");
+    assert_true(holds("key: 'probes.push.impulse[0]', value: 7000 mN s, within: 0"));
+    refused("key: 'probes.push.impulse[0]', value: 7 N, within: 0", "must be in a unit of N s");
+    refused("key: 'probes.warm.impulse[0]', value: 5 K, within: 0", "must be in a unit of K s");
+    assert_true(holds("key: probes.push.last.force_x, value: 6 N, within: 0"));
+    refused("key: probes.push.last.force_x, value: 6 m, within: 0", "must be in a unit of N");
+    summary = "{\"kind\": \"onset\", \"shot\": {\"muzzle_velocity\": 1900}, \"scenes\": [{\"name\": \"a\", "
+              "\"velocity\": 8}]}";
+    assert_true(holds("key: shot.muzzle_velocity, value: 1.9 km/s, within: 0"));
+    refused("key: shot.muzzle_velocity, value: 1900 m, within: 0", "must be in a unit of m/s");
+    refused("key: 'scenes[a].velocity', value: 8 m, within: 0", "must be in a unit of m/s");
+    summary =
+        "{\"kind\": \"sweep\", \"units\": {\"bank.charge\": \"V\"}, \"sweep\": [{\"inputs\": {\"bank.charge\": 9}}]}";
+    assert_true(holds("key: 'sweep[0].inputs[bank.charge]', value: 9 V, within: 0"));
+    refused("key: 'sweep[0].inputs[bank.charge]', value: 9 A, within: 0", "must be in a unit of V");
+    summary = SUMMARY;
+}
+
 /* NAME.yaml has its list in NAME_expected.yaml; without one there is nothing to compare. */
 static void test_names(void **state)
 {
@@ -163,10 +207,10 @@ static void test_names(void **state)
     expectations e;
     const char list[] = "- {key: class, is: gouge}\n";
     remove("coarse_expected.yaml"); /* of an earlier run of this test */
-    assert_int_equal(output_expect("coarse.yaml", "run", &e).code, STATUS_BAD_INPUT);
+    assert_int_equal(output_expect("coarse.yaml", "run", study_tables, &e).code, STATUS_BAD_INPUT);
     output_expect_free(&e);
     assert_int_equal(host_file_write("coarse_expected.yaml", list, strlen(list)).code, STATUS_OK);
-    assert_int_equal(output_expect("coarse.yaml", "run", &e).code, STATUS_OK);
+    assert_int_equal(output_expect("coarse.yaml", "run", study_tables, &e).code, STATUS_OK);
     assert_int_equal(e.held, 1);
     output_expect_free(&e);
 }
@@ -189,9 +233,11 @@ static void test_table(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_numbers),    cmocka_unit_test(test_words),
-                                        cmocka_unit_test(test_refused),    cmocka_unit_test(test_names),
-                                        cmocka_unit_test(test_table),      cmocka_unit_test(test_units),
-                                        cmocka_unit_test(test_units_agree) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_numbers),     cmocka_unit_test(test_words),
+        cmocka_unit_test(test_refused),     cmocka_unit_test(test_names),
+        cmocka_unit_test(test_table),       cmocka_unit_test(test_units),
+        cmocka_unit_test(test_units_agree), cmocka_unit_test(test_unit_of_the_summary)
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

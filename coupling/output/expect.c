@@ -4,6 +4,7 @@
 #include "coupling/host/outdir.h"
 #include "coupling/host/units.h"
 #include "coupling/host/yaml_tree.h"
+#include "mpm/read/probe.h"
 
 #include <cJSON.h>
 #include <math.h>
@@ -14,7 +15,17 @@ typedef struct {
     const char *path; /* of the list */
     const units *u;
     const cJSON *summary;
+    summary_tables tables; /* of it */
 } comparison;
+
+/* A place in the summary, come to by a path. */
+typedef struct {
+    const cJSON *at;         /* NULL: there is none */
+    const summary_key *keys; /* of the object that it is; NULL: it is none, or nobody knows them */
+    const summary_key *key;  /* of what it is a value of, or a part of that; NULL: nobody knows */
+    const cJSON *owner;      /* the object with that key */
+    const char *name;        /* of the last step */
+} summary_place;
 
 /* "expected.yaml" for case.yaml, "NAME_expected.yaml" for NAME.yaml, in the case's folder. */
 static void list_path(const char *case_file, char path[OUTDIR_PATH_SIZE])
@@ -48,20 +59,33 @@ bool output_number_in_si(const units *u, const char *text, double *value, const 
     return false;
 }
 
-/* unit: of the entry's numbers before this one, NULL where none says it.  0 and what is infinite need none, and a band
- * that is a part of the value (5 %) has none. */
-static status read_number(const comparison *c, const tree_node *entry, const char *key, double *value,
+/* Without a unit: 0, and what is infinite. */
+static bool needs_none(double value, const char *unit)
+{
+    return isinf(value) || (value == 0.0 && strcmp(unit, "1") == 0);
+}
+
+/* due: the unit that the summary has it in, "" where nobody knows; then unit is that of the entry's numbers before this
+ * one, NULL where none says it.  A band that is a part of the value (5 %) has none. */
+static status read_number(const comparison *c, const tree_node *entry, const char *key, const char *due, double *value,
                           const char **unit)
 {
     const tree_node *node = host_tree_find(entry, key);
     const char *own;
+    char written[UNIT_SIZE];
     *value = NAN;
     if (!node) return status_ok();
     CHECK(node->kind == TREE_TEXT && output_number_in_si(c->u, node->text, value, &own), STATUS_BAD_INPUT,
           "%.200s:%d:%d: %s = %.60s: must be a number with a unit", c->path, node->line, node->column, key,
           node->kind == TREE_TEXT ? node->text : "a list");
-    const bool part = strcmp(key, "within") == 0 && strchr(node->text, '%');
-    if (*value == 0.0 || isinf(*value) || part) return status_ok();
+    if ((strcmp(key, "within") == 0 && strchr(node->text, '%')) || needs_none(*value, own)) return status_ok();
+    if (due[0]) {
+        CHECK(host_quantity_read(c->u, node->text, due, value, written).code == STATUS_OK, STATUS_BAD_INPUT,
+              "%.200s:%d:%d: %s = %.60s: must be in a unit of %s, as the summary's number", c->path, node->line,
+              node->column, key, node->text, due);
+        return status_ok();
+    }
+    if (*value == 0.0) return status_ok();
     CHECK(!*unit || strcmp(*unit, own) == 0, STATUS_BAD_INPUT,
           "%.200s:%d:%d: %s = %.60s: must be in a unit of %s, as the number before it", c->path, node->line,
           node->column, key, node->text, *unit);
@@ -96,24 +120,79 @@ static const cJSON *entry_of(const cJSON *list, const char *which, size_t length
     return NULL;
 }
 
-static const cJSON *summary_at(const cJSON *root, const char *path)
+static const summary_key *key_in(const summary_key *keys, const char *name)
 {
-    const cJSON *at = root;
-    while (at && *path) {
-        const size_t length = strcspn(path, ".[]");
-        char key[EXPECT_TEXT_SIZE];
-        if (*path == '[') {
-            const size_t inside = strcspn(path + 1, "]");
-            at = entry_of(at, path + 1, inside);
-            path += 1 + inside + (path[1 + inside] == ']');
-        } else {
-            snprintf(key, sizeof key, "%.*s", (int)length, path);
-            at = cJSON_GetObjectItemCaseSensitive(at, key);
-            path += length;
-        }
-        if (*path == '.') path++;
+    for (const summary_key *k = keys; k && k->name; k++) {
+        const summary_key *found = k->kind == KEY_PART ? key_in(k->item, name) : strcmp(k->name, name) == 0 ? k : NULL;
+        if (found) return found;
     }
-    return at;
+    return NULL;
+}
+
+/* What the tables say of it, one name further; before `at` has gone there. */
+static void step(const comparison *c, summary_place *p, const char *name)
+{
+    const summary_key *k = p->key;
+    p->name = name;
+    if (p->keys) {
+        p->key = key_in(p->keys, name);
+        p->owner = p->at;
+        p->keys = !p->key && p->at == c->summary && strcmp(name, "shot") == 0 ? c->tables.shot : NULL;
+    } else if (k && (k->kind == KEY_LIST || k->kind == KEY_MAP)) {
+        p->keys = k->item + (k->kind == KEY_MAP);
+        p->key = NULL;
+    }
+}
+
+static summary_place place_of(const comparison *c, const char *path, char word[EXPECT_TEXT_SIZE])
+{
+    summary_place p = { .at = c->summary, .keys = c->tables.result };
+    while (p.at && *path) {
+        const bool inside = *path == '[';
+        const size_t length = strcspn(path + inside, inside ? "]" : ".[]");
+        snprintf(word, EXPECT_TEXT_SIZE, "%.*s", (int)length, path + inside);
+        step(c, &p, word);
+        p.at = inside ? entry_of(p.at, word, length) : cJSON_GetObjectItemCaseSensitive(p.at, word);
+        path += length + inside;
+        path += inside && *path == ']';
+        path += *path == '.';
+    }
+    return p;
+}
+
+static const char *column_unit(const char *probe_kind, const char *name)
+{
+    const mpm_probe_kind *kind = probe_kind ? mpm_probe_kind_find(probe_kind) : NULL;
+    for (const mpm_column *column = kind ? kind->columns : NULL; column && column->name; column++)
+        if (strcmp(column->name, name) == 0) return column->unit;
+    return "";
+}
+
+static const char *text_of(const cJSON *object, const char *name)
+{
+    const char *text = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, name));
+    return text ? text : "";
+}
+
+/* Of the number there; "" where nobody knows. */
+static void unit_at(const comparison *c, const summary_place *p, char unit[SUMMARY_NAME_SIZE])
+{
+    const summary_key *k = p->key;
+    unit[0] = '\0';
+    if (!k) return;
+    const char *own = text_of(p->owner, "unit"), *integral = output_unit_over_time(own), *found = k->unit;
+    const bool over_time = !k->unit[0] && own[0] && k->kind == KEY_NUMBER && k->n > 1;
+    if (k->unit[0])
+        found = k->unit;
+    else if (k->kind == KEY_COUNT || k->kind == KEY_INTEGER)
+        found = "1";
+    else if (k->kind == KEY_NUMBER)
+        found = over_time && integral ? integral : own;
+    else if (k->kind == KEY_BY_NAME)
+        found = column_unit(text_of(p->owner, "kind"), p->name);
+    else if (k->kind == KEY_PAIRS && strcmp(k->name, "errors") != 0) /* inputs and outputs of a sweep */
+        found = text_of(cJSON_GetObjectItemCaseSensitive(c->summary, "units"), p->name);
+    snprintf(unit, SUMMARY_NAME_SIZE, "%s%s", found, over_time && !integral ? " s" : "");
 }
 
 /* ---- one expectation ---- */
@@ -140,15 +219,16 @@ static status compare_text(const tree_node *is, const cJSON *found, expectation 
     return status_ok();
 }
 
-static status compare_number(const comparison *c, const tree_node *entry, const cJSON *found, expectation *e)
+static status compare_number(const comparison *c, const tree_node *entry, const cJSON *found, const char *due,
+                             expectation *e)
 {
     double value, least, most, within = NAN;
     const char *unit = NULL;
     const tree_node *band = host_tree_find(entry, "within");
-    TRY(read_number(c, entry, "value", &value, &unit));
-    TRY(read_number(c, entry, "within", &within, &unit));
-    TRY(read_number(c, entry, "at_least", &least, &unit));
-    TRY(read_number(c, entry, "at_most", &most, &unit));
+    TRY(read_number(c, entry, "value", due, &value, &unit));
+    TRY(read_number(c, entry, "within", due, &within, &unit));
+    TRY(read_number(c, entry, "at_least", due, &least, &unit));
+    TRY(read_number(c, entry, "at_most", due, &most, &unit));
     CHECK(!isnan(value) || !isnan(least) || !isnan(most), STATUS_BAD_INPUT,
           "%.200s:%d:%d: give a value, at_least, at_most or is", c->path, entry->line, entry->column);
     CHECK(isnan(value) == isnan(within), STATUS_BAD_INPUT, "%.200s:%d:%d: `value` and `within` belong together",
@@ -186,8 +266,10 @@ static status compare_one(const comparison *c, const tree_node *entry, expectati
               c->path, is->line, is->column, of_numbers[i]);
     snprintf(e->key, sizeof e->key, "%s", key->text);
     if (source && source->kind == TREE_TEXT) snprintf(e->source, sizeof e->source, "%.100s", source->text);
-    const cJSON *found = summary_at(c->summary, key->text);
-    return is ? compare_text(is, found, e) : compare_number(c, entry, found, e);
+    char word[EXPECT_TEXT_SIZE], due[SUMMARY_NAME_SIZE];
+    const summary_place found = place_of(c, key->text, word);
+    unit_at(c, &found, due);
+    return is ? compare_text(is, found.at, e) : compare_number(c, entry, found.at, due, e);
 }
 
 /* ---- all of them ---- */
@@ -206,7 +288,8 @@ static status compare_all(const comparison *c, const tree_node *list, expectatio
     return status_ok();
 }
 
-static status compare_list(const char *path, const char *bytes, size_t length, const cJSON *summary, expectations *out)
+static status compare_list(const char *path, const char *bytes, size_t length, const cJSON *summary,
+                           summary_tables tables, expectations *out)
 {
     tree_node *list = NULL;
     units *u = NULL;
@@ -214,13 +297,14 @@ static status compare_list(const char *path, const char *bytes, size_t length, c
     const status parsed = host_tree_parse(bytes, length, &list, &line, &column);
     CHECK(parsed.code == STATUS_OK, parsed.code, "%.200s:%d:%d: %.250s", path, line, column, parsed.text);
     status s = host_units_open(&u);
-    if (s.code == STATUS_OK) s = compare_all(&(comparison){ path, u, summary }, list, out);
+    if (s.code == STATUS_OK) s = compare_all(&(comparison){ path, u, summary, tables }, list, out);
     host_units_close(u);
     host_tree_free(list);
     return s;
 }
 
-status output_expect(const char *case_file, const char *dir, expectations *out)
+status output_expect(const char *case_file, const char *dir, summary_tables (*tables_of)(const char *kind),
+                     expectations *out)
 {
     char path[OUTDIR_PATH_SIZE], results[OUTDIR_PATH_SIZE], *bytes = NULL, *json = NULL;
     size_t length = 0;
@@ -233,7 +317,7 @@ status output_expect(const char *case_file, const char *dir, expectations *out)
     status s = host_file_read(results, &json, NULL);
     if (s.code == STATUS_OK) {
         cJSON *summary = cJSON_Parse(json);
-        s = summary ? compare_list(path, bytes, length, summary, out)
+        s = summary ? compare_list(path, bytes, length, summary, tables_of(text_of(summary, "kind")), out)
                     : base_status_error(STATUS_BAD_INPUT, "%.400s: this is no summary of a run", results);
         cJSON_Delete(summary);
     }

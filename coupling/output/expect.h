@@ -10,13 +10,15 @@
  *
  * `key` is a path through summary.json: names by dots, entries of lists as scenes[0] or scenes[name].  Numbers have
  * units and are held in SI like those of the summary; `within` with a % is relative to the value, else it has its unit.
- * Numbers of one entry in units of different kinds are refused.
+ * A number in a unit of another kind than the summary's is refused, and where the summary's is not known, numbers of
+ * one entry in units of different kinds.
  */
 #ifndef BREECH_COUPLING_OUTPUT_EXPECT_H
 #define BREECH_COUPLING_OUTPUT_EXPECT_H
 
 #include "base/status.h"
 #include "coupling/host/units.h"
+#include "coupling/output/summary.h"
 
 #include <stdbool.h>
 
@@ -35,9 +37,11 @@ typedef struct {
     expectation *item; /* n, owned */
 } expectations;
 
-/* case_file: path of the case file itself; dir: of the run's output.  STATUS_BAD_INPUT with file, line and column where
+/* case_file: path of the case file itself; dir: of the run's output; tables_of: by the kind that the summary names,
+ * what units its numbers have.  STATUS_BAD_INPUT with file, line and column where
  * the list is wrong or not there.  output_expect_free(out) even on error. */
-status output_expect(const char *case_file, const char *dir, expectations *out);
+status output_expect(const char *case_file, const char *dir, summary_tables (*tables_of)(const char *kind),
+                     expectations *out);
 void output_expect_free(expectations *e);
 
 /* A number with a unit of any of a summary's kinds, in SI; *unit: that.  false: it is none. */

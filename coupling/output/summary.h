@@ -146,6 +146,11 @@ bool output_number_exists(const summary_key *keys, const char *path);
 /* Its value; NaN: null, or it is not there.  unit: NULL, or where the unit goes, left alone where it is not there. */
 double output_number_of(const summary_object *o, const char *path, char unit[SUMMARY_NAME_SIZE]);
 
+/* The tables of the summary of a kind of run; NULL: there is none. */
+typedef struct {
+    const summary_key *result, *shot; /* shot: of what stands under "shot" */
+} summary_tables;
+
 /* For people: key, value rounded to four digits and unit with its prefix, of what is short and known: no lists, no
  * `reason`, no null. */
 void output_keys_print(const summary_object *o, FILE *out);

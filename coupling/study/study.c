@@ -48,6 +48,12 @@ report_kind study_report_kind(const char *name)
     return y ? (report_kind){ y->report, study_command(y) } : (report_kind){ .command = NULL };
 }
 
+summary_tables study_tables(const char *name)
+{
+    const study *y = study_find(name);
+    return (summary_tables){ y ? y->keys : NULL, y && y->shows_shot ? run_shot_keys : NULL };
+}
+
 run_summary study_summary(const study *y, const study_answer *a)
 {
     run_summary s = { .kind = y->name, .result = { y->keys, a->result }, .print = y->print };

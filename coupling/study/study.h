@@ -81,6 +81,9 @@ status study_possible_all(const study_case *of, unsigned needs);
 /* What the report shows of the study of that name; empty where there is none. */
 report_kind study_report_kind(const char *name);
 
+/* The tables of the summary of the study of that name; empty where there is none. */
+summary_tables study_tables(const char *name);
+
 /* What is written of an answer; the rest is the caller's. */
 run_summary study_summary(const study *y, const study_answer *a);
 
