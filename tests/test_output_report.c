@@ -649,7 +649,18 @@ static void what_is_no_run_is_refused(void **state)
     assert_non_null(strstr(s.text, "summary.json"));
     OK(host_file_write("report/summary.json", "{ \"kind\": [", 11));
     assert_int_equal(report_write("report", study_report_kind).code, STATUS_BAD_INPUT);
-    OK(host_file_write("report/summary.json", "{}", 2));
+    static const char *const wrong[][2] = { { "{}", "summary.json: is no summary of a run: its `kind` is missing" },
+                                            { "[1, 2]", "its `kind` is missing" },
+                                            { "{\"kind\": 5}", "its `kind` is missing" },
+                                            { "{\"kind\": \"shoot\"}", "its `kind` shoot is unknown" } };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        OK(host_file_write("report/summary.json", wrong[i][0], strlen(wrong[i][0])));
+        const status none = report_write("report", study_report_kind);
+        assert_int_equal(none.code, STATUS_BAD_INPUT);
+        if (!strstr(none.text, wrong[i][1])) fail_msg("%s: %s", wrong[i][0], none.text);
+        assert_false(host_file_exists("report/report.html"));
+    }
+    OK(host_file_write("report/summary.json", "{\"kind\": \"shot\"}", 16));
     OK(host_file_write("report/history.h5", "damaged", 7));
     assert_int_equal(report_write("report", study_report_kind).code, STATUS_IO);
     assert_false(host_file_exists("report/report.html"));

@@ -160,7 +160,12 @@ status report_write(const char *dir, report_kind (*kind_of)(const char *kind))
     cJSON *summary = cJSON_Parse(text);
     free(text);
     CHECK(summary, STATUS_BAD_INPUT, "%.300s: is no JSON", path);
-    const status s = report_with(&d, summary, kind_of(report_text(summary, "kind")));
+    const char *kind = report_text(summary, "kind");
+    const report_kind of = kind_of(kind);
+    const status s = of.command
+                         ? report_with(&d, summary, of)
+                         : base_status_error(STATUS_BAD_INPUT, "%.300s: is no summary of a run: its `kind` %.40s%s",
+                                             path, kind[0] ? kind : "is missing", kind[0] ? " is unknown" : "");
     cJSON_Delete(summary);
     return s;
 }
