@@ -664,16 +664,50 @@ static void test_unusable(void **state)
     case_free(c);
 }
 
+/* A folder in the place of a scene's file is found before the scene is computed, also of one that is computed anew. */
+static void test_folder_in_its_place(void **state)
+{
+    (void)state;
+    fresh_folder("in_place");
+    breech_case *c = read_case(NULL);
+    const scene_record *out;
+    scene_query q[] = { query_at(c, 1400.0, "a"), query_at(c, 1600.0, "b") };
+    char path[300];
+    path_in("in_place/store", key_at(c, 1600.0, 3.0), path);
+    assert_int_equal(system("mkdir -p in_place/store"), 0);
+    assert_int_equal(mkdir(path, 0777), 0);
+    for (int anew = 0; anew < 2; anew++) {
+        q[1].anew = anew == 1;
+        session s = opened(c, anew ? "in_place/two" : "in_place/one", "in_place/store");
+        OK(run_scenes_all(&s, &q[0], 1, &out));
+        const int before = ran.scenes;
+        const status refused = run_scenes_all(&s, &q[1], 1, &out);
+        assert_int_equal(refused.code, STATUS_BAD_INPUT);
+        assert_non_null(strstr(refused.text, path));
+        assert_int_equal(ran.scenes, before);
+        OK(run_session_close(&s, true));
+    }
+    case_free(c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_key_parts),    cmocka_unit_test(test_key_is_a_case),
-        cmocka_unit_test(test_file),         cmocka_unit_test(test_shared),
-        cmocka_unit_test(test_bodies),       cmocka_unit_test(test_force_keeps_it),
-        cmocka_unit_test(test_damaged),      cmocka_unit_test(test_damaged_is_said_once),
-        cmocka_unit_test(test_flipped_bits), cmocka_unit_test(test_killed_writers),
-        cmocka_unit_test(test_full_disk),    cmocka_unit_test(test_history_first),
-        cmocka_unit_test(test_left_over),    cmocka_unit_test(test_unusable),
+        cmocka_unit_test(test_key_parts),
+        cmocka_unit_test(test_key_is_a_case),
+        cmocka_unit_test(test_file),
+        cmocka_unit_test(test_shared),
+        cmocka_unit_test(test_bodies),
+        cmocka_unit_test(test_force_keeps_it),
+        cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_damaged_is_said_once),
+        cmocka_unit_test(test_flipped_bits),
+        cmocka_unit_test(test_killed_writers),
+        cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_history_first),
+        cmocka_unit_test(test_left_over),
+        cmocka_unit_test(test_unusable),
+        cmocka_unit_test(test_folder_in_its_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,6 +184,7 @@ static status look_up(session *s, const scene_query *q, scene_key *key, const sc
     TRY(run_scene_query_key(q, key));
     *out = record_of(s, key->hash);
     if (*out) return status_ok();
+    if (s->store[0]) TRY(run_store_check(s->store, key));
     TRY(take_come(s, q, key));
     *out = record_of(s, key->hash);
     if (*out) return status_ok();
@@ -250,7 +251,8 @@ status run_scenes_all(session *s, const scene_query *query, int n, const scene_r
 static status is_known(const session *s, const scene_query *q, bool *known)
 {
     scene_key key = { .text = NULL };
-    const status done = run_scene_query_key(q, &key);
+    status done = run_scene_query_key(q, &key);
+    if (done.code == STATUS_OK && s->store[0]) done = run_store_check(s->store, &key);
     *known = record_of(s, key.hash) || (may_be_stored(s, q) && run_store_has(s->store, &key));
     run_scene_key_free(&key);
     return done;

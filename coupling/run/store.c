@@ -197,6 +197,15 @@ bool run_store_has(const char *dir, const scene_key *key)
     return path_of(dir, key, path).code == STATUS_OK && host_file_exists(path);
 }
 
+status run_store_check(const char *dir, const scene_key *key)
+{
+    char path[OUTDIR_PATH_SIZE];
+    TRY(path_of(dir, key, path));
+    CHECK(!host_folder_exists(path), STATUS_BAD_INPUT,
+          "%.300s: is a folder where the store keeps a scene: remove it, or name another --store", path);
+    return status_ok();
+}
+
 /* Under a name of its own first: another program may be writing the same scene. */
 status run_store_put(const char *dir, const scene_key *key, h5_file *file)
 {

@@ -32,6 +32,8 @@ status run_store_open(const char *dir);
  * of this scene. */
 status run_store_get(const char *dir, const scene_key *key, h5_file **out);
 bool run_store_has(const char *dir, const scene_key *key);
+/* Before the scene is computed: could run_store_put put it there?  STATUS_BAD_INPUT: a folder stands in its place. */
+status run_store_check(const char *dir, const scene_key *key);
 /* Makes the folder where there is none. */
 status run_store_put(const char *dir, const scene_key *key, h5_file *file);
 
