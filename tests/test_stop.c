@@ -89,6 +89,20 @@ static void test_stop_and_resume(void **state)
     cJSON_Delete(part);
 }
 
+/* A stopped run whose history is gone is not gone on with: the end would lack what was in it. */
+static void test_without_history(void **state)
+{
+    (void)state;
+    fresh_folder("no_history");
+    assert_int_equal(run("scene " TINY " -o no_history/a --max-walltime 0.05"), 75);
+    assert_int_equal(rename("no_history/a/history.h5", "no_history/kept.h5"), 0);
+    assert_int_equal(run("scene " TINY " -o no_history/a --resume"), 2);
+    assert_true(contains("err.txt", "history.h5: is missing, and the checkpoint beside it goes on from it"));
+    assert_true(exists("no_history/a/checkpoint.bin"));
+    assert_int_equal(rename("no_history/kept.h5", "no_history/a/history.h5"), 0);
+    assert_int_equal(run("scene " TINY " -o no_history/a --resume"), 0);
+}
+
 /* The shipped lattice on cells of twice the size, for three microseconds. */
 #define STRIKE                                                                                            \
     "strike " CASES "/lattice_target --quiet --set strike.travel='6 mm' --set scene.cell='0.8 mm' --set " \
@@ -204,7 +218,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stop_and_resume), cmocka_unit_test(test_strike), cmocka_unit_test(test_max_walltime),
-        cmocka_unit_test(test_sweep),           cmocka_unit_test(test_search),
+        cmocka_unit_test(test_without_history), cmocka_unit_test(test_sweep),  cmocka_unit_test(test_search),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

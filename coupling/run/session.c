@@ -124,6 +124,9 @@ status run_session_open(const case_inputs *in, const session_options *o, session
     if (!o->store) TRY(find_store(s, NULL));
     if (s->dir.state == OUTDIR_RESUMED) TRY(run_session_take_up(s));
     TRY(host_outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
+    CHECK(s->dir.state != OUTDIR_RESUMED || host_file_exists(dir), STATUS_BAD_INPUT,
+          "%.300s: is missing, and the checkpoint beside it goes on from it; put it back or start over with --force",
+          dir);
     TRY(output_history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));
     return run_ranks_count() > 1 ? run_crew_create(s, o->side_by_side, &s->crew) : status_ok();
 }
