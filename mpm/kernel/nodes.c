@@ -25,6 +25,8 @@ typedef struct {
     double m, v[3], f[3], heat;
     double v_start[3];  /* before the forces, after the walls [m/s] */
     double absorbed[3]; /* impulse of absorbing boundaries [N s] */
+    bool held[3];       /* components that a wall holds in this turn, */
+    double hold[3];     /* at which velocity [m/s] */
     const double *extra;
 } node_state;
 
@@ -179,15 +181,26 @@ typedef struct {
     tally *sum;
 } wall_place;
 
-/* The wall's velocity in component k; what the mixing with it takes is heat, its reaction's work is booked. */
-static void wall_hold(node_state *n, int k, double velocity, double dt, tally *sum)
+/* A wall gives component k its velocity.  Where several do, at an edge of the window, the last one counts. */
+static void wall_hold(node_state *n, int k, double velocity)
 {
-    const double change = velocity - n->v[k], J = n->m * change - dt * n->f[k];
-    sum->impulse_boundary[k] += J;
-    sum->work_boundary += J * velocity;
-    n->heat += 0.5 * n->m * change * change;
-    n->v[k] = velocity;
-    n->f[k] = 0;
+    n->held[k] = true;
+    n->hold[k] = velocity;
+}
+
+/* What the mixing with the walls takes is heat, their reaction's work is booked. */
+static void take_holds(node_state *n, double dt, tally *sum)
+{
+    for (int k = 0; k < 3; k++) {
+        if (!n->held[k]) continue;
+        const double change = n->hold[k] - n->v[k], J = n->m * change - dt * n->f[k];
+        sum->impulse_boundary[k] += J;
+        sum->work_boundary += J * n->hold[k];
+        n->heat += 0.5 * n->m * change * change;
+        n->v[k] = n->hold[k];
+        n->f[k] = 0;
+        n->held[k] = false;
+    }
 }
 
 typedef struct {
@@ -251,16 +264,14 @@ static void apply_walls(const mpm *m, node_side *side, int cell, wall_turn turn,
 {
     node_state *n = &side->state;
     const wall_place at = { m, side->brick, cell, dt, sum };
-    if (is_held(m, side)) {
-        for (int k = 0; k < 3 && turn == BOUNDARY_ONCE; k++) wall_hold(n, k, 0, dt, sum);
-        return;
-    }
-    for (int i = 0; i < side->n_walls; i++) {
+    for (int k = 0; k < 3 && is_held(m, side) && turn == BOUNDARY_ONCE; k++) wall_hold(n, k, 0);
+    for (int i = 0; i < side->n_walls && !is_held(m, side); i++) {
         const wall *w = &side->walls[i];
 #define BOUNDARY(PLACE, name, after, text) \
     if (w->kind == MPM_BOUNDARY_##PLACE && (after) >= turn) boundary_##name(n, w, &at);
 #include "mpm/law/boundary.def"
     }
+    take_holds(n, dt, sum);
 }
 
 /* ---- contact of two groups at a node ---- */

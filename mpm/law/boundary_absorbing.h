@@ -9,6 +9,7 @@ static inline void boundary_absorbing(node_state *n, const wall *w, const wall_p
 {
     const wave_speeds c = speeds_at(at->m, at->brick, at->cell);
     for (int q = 0; q < 3; q++) {
+        if (n->held[q]) continue; /* by a wall of an axis before */
         const double rate = 2 * (q == w->axis ? c.p : c.s) / w->size;
         const double v = (n->v[q] + at->dt * n->f[q] / n->m) / (1 + at->dt * rate);
         const double J = -n->m * at->dt * rate * v;

@@ -4,7 +4,7 @@ BOUNDARY(FIXED, fixed, BOUNDARY_AGAIN, "no motion at all")
 #ifdef BOUNDARY_ACTS
 static inline void boundary_fixed(node_state *n, const wall *w, const wall_place *at)
 {
-    (void)w;
-    for (int q = 0; q < 3; q++) wall_hold(n, q, 0, at->dt, at->sum);
+    (void)w, (void)at;
+    for (int q = 0; q < 3; q++) wall_hold(n, q, 0);
 }
 #endif

@@ -4,6 +4,7 @@ BOUNDARY(PRESCRIBED, prescribed, BOUNDARY_AGAIN, "moves all at a velocity, `{pre
 #ifdef BOUNDARY_ACTS
 static inline void boundary_prescribed(node_state *n, const wall *w, const wall_place *at)
 {
-    for (int q = 0; q < 3; q++) wall_hold(n, q, w->velocity[q], at->dt, at->sum);
+    (void)at;
+    for (int q = 0; q < 3; q++) wall_hold(n, q, w->velocity[q]);
 }
 #endif

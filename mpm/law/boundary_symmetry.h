@@ -5,6 +5,7 @@ BOUNDARY(SYMMETRY, symmetry, BOUNDARY_AGAIN, "a mirror: nothing moves through it
 #ifdef BOUNDARY_ACTS
 static inline void boundary_symmetry(node_state *n, const wall *w, const wall_place *at)
 {
-    wall_hold(n, w->axis, 0, at->dt, at->sum);
+    (void)at;
+    wall_hold(n, w->axis, 0);
 }
 #endif
