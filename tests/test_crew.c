@@ -231,23 +231,39 @@ static double written_at(const char *dir, const char *scene, const char *file)
     return (double)about.st_mtim.tv_sec + 1e-9 * (double)about.st_mtim.tv_nsec;
 }
 
+/* Of two scenes that are wanted while members compute what may be, rank 0 takes the long one and a member the other at
+ * once.  Was it done first?  Where others load the machine that member may have stood still. */
+static bool is_at_once(session *s, const breech_case *c, const scene_query ahead[2], const scene_query *first,
+                       const scene_query two[2])
+{
+    const scene_record *out[2];
+    OK(run_scenes_ahead(s, ahead, 2, false));
+    OK(run_scenes_all(s, first, 1, out)); /* by rank 0, while the others have begun what may come */
+    OK(run_scenes_all(s, two, 2, out));
+    for (int i = 0; i < 2; i++) assert_same(*out[i], alone(c, &two[i]));
+    return written_at("put-off", two[1].name, "scene-000001.hdf") <
+           written_at("put-off", two[0].name, "scene-000001.hdf");
+}
+
 /* Members that compute what may be wanted put it off for what is, and go on with it afterwards; what nobody asks for
  * any more they give up.  All of it to the same bits. */
 static void test_put_off(void **state)
 {
+    enum { TRIES = 4 };
     (void)state;
     breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=4 us");
-    const scene_query ahead[] = { query_at(longer, 1400.0), query_at(longer, 1600.0) };
-    const scene_query first = query_at(c, 1500.0), two[] = { query_at(longer, 1550.0), query_at(c, 1450.0) };
+    scene_query ahead[2], first;
     const scene_record *out[2];
     session s;
     open_session(c, "put-off", &s);
-    OK(run_scenes_ahead(&s, ahead, 2, false));
-    OK(run_scenes_all(&s, &first, 1, out)); /* by rank 0, while the others have begun what may come */
-    OK(run_scenes_all(&s, two, 2, out));    /* rank 0 takes the long one, a member the other at once */
-    for (int i = 0; i < 2; i++) assert_same(*out[i], alone(c, &two[i]));
-    assert_true(written_at("put-off", two[1].name, "scene-000001.hdf") <
-                written_at("put-off", two[0].name, "scene-000001.hdf"));
+    bool at_once = false;
+    for (int i = 0; i < TRIES && !at_once; i++) {
+        const scene_query two[] = { query_at(longer, 1550.0 + i), query_at(c, 1450.0 + i) };
+        for (int k = 0; k < 2; k++) ahead[k] = query_at(longer, 1400.0 + 200.0 * k + i);
+        first = query_at(c, 1500.0 + i);
+        at_once = is_at_once(&s, c, ahead, &first, two);
+    }
+    assert_true(at_once);
     OK(run_scenes_ahead(&s, &ahead[1], 1, false));
     OK(run_scenes_all(&s, &first, 1, out)); /* known */
     OK(run_scenes_ahead(&s, NULL, 0, false));
