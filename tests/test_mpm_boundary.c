@@ -114,8 +114,8 @@ static void test_edges(void **state)
         }
 }
 
-/* A plate one cell thick whose face a fixed end holds is struck in its plane by a block that the end lets pass.  What the
- * contact gives to the nodes at the end, the end takes back: the plate is slower than one that may slide along it. */
+/* A plate one cell thick whose face a fixed end holds is struck in its plane by a block that the end lets pass.  What
+ * the contact gives to the nodes at the end, the end takes back: the plate is slower than one that may slide there. */
 static void test_after_a_contact(void **state)
 {
     (void)state;
