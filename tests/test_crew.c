@@ -251,7 +251,8 @@ static void test_put_off(void **state)
 {
     enum { TRIES = 4 };
     (void)state;
-    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=4 us");
+    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=3 us"),
+                *longest = small_case("scene.end_time=6 us");
     scene_query ahead[2], first;
     const scene_record *out[2];
     session s;
@@ -259,7 +260,7 @@ static void test_put_off(void **state)
     bool at_once = false;
     for (int i = 0; i < TRIES && !at_once; i++) {
         const scene_query two[] = { query_at(longer, 1550.0 + i), query_at(c, 1450.0 + i) };
-        for (int k = 0; k < 2; k++) ahead[k] = query_at(longer, 1400.0 + 200.0 * k + i);
+        for (int k = 0; k < 2; k++) ahead[k] = query_at(longest, 1400.0 + 200.0 * k + i);
         first = query_at(c, 1500.0 + i);
         at_once = is_at_once(&s, c, ahead, &first, two);
     }
@@ -274,6 +275,7 @@ static void test_put_off(void **state)
     OK(run_session_close(&s, true));
     case_free(c);
     case_free(longer);
+    case_free(longest);
 }
 
 /* A scene that cannot be: the words of the process that met it. */

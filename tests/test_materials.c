@@ -244,6 +244,7 @@ static void errors_of_bases_have_their_place(void **state)
     } bad[] = {
         { "name: x\nbase: ofhc_coper\n", "x.yaml:2:7: base = ofhc_coper: no material of this name in " },
         { "name: x\nbase: ofhc_coper\n", "did you mean `ofhc_copper" },
+        { "name: x\nbase: steel\n", "did you mean `rail_steel_ma2020`, `steel_1080`, `steel_4340`?" },
         { "name: x\nbase: ../ofhc_copper\n", "x.yaml:2:7: base = ../ofhc_copper: a material's name has letters" },
         { "name: x\nbase: [1]\n", "x.yaml:2:7: base = : must be the name of a material" },
         { "name: x\nbase: ofhc_copper\nsources: {book: mine}\n",

@@ -112,9 +112,26 @@ static const char *listed(const void *user, int i)
     return ((char *const *)user)[i];
 }
 
+/* What may have been meant by a name: the nearest one, or all that have it in them. */
+typedef struct {
+    char nearest[BASE_PARAM_TEXT_SIZE], holding[160];
+} name_hints;
+
+static void add_hints(const char *name, char *const *names, name_hints *h)
+{
+    const char *found = host_nearest_name(name, listed, names);
+    if (found) snprintf(h->nearest, sizeof h->nearest, "%s", found);
+    for (; *names; names++) {
+        const size_t used = strlen(h->holding);
+        if (!strstr(*names, name) || used + strlen(*names) + 5 > sizeof h->holding) continue;
+        snprintf(h->holding + used, sizeof h->holding - used, "%s`%s`", used > 0 ? ", " : "", *names);
+    }
+}
+
 static status not_found(const char *name, const char *const *dirs, int n_dirs)
 {
-    char text[400] = "", near[BASE_PARAM_TEXT_SIZE] = "";
+    char text[400] = "";
+    name_hints h = { "", "" };
     for (int d = 0; d < n_dirs; d++) {
         char **names;
         int n;
@@ -125,14 +142,15 @@ static status not_found(const char *name, const char *const *dirs, int n_dirs)
         if (ended) {
             names = ended;
             names[n] = NULL;
-            const char *found = host_nearest_name(name, listed, names);
-            if (found) snprintf(near, sizeof near, "%s", found);
+            add_hints(name, names, &h);
         }
         case_material_names_free(names, n);
     }
-    return base_status_error(
-        STATUS_BAD_INPUT, "no material of this name in %s; %s%s%s", n_dirs > 0 ? text : "(no folder given)",
-        near[0] ? "did you mean `" : "`breech materials` lists those at hand", near, near[0] ? "`?" : "");
+    const char *meant = h.nearest[0] ? h.nearest : h.holding, *quote = h.nearest[0] ? "`" : "";
+    return base_status_error(STATUS_BAD_INPUT, "no material of this name in %s; %s%s%s%s%s",
+                             n_dirs > 0 ? text : "(no folder given)",
+                             meant[0] ? "did you mean " : "`breech materials` lists those at hand", quote, meant, quote,
+                             meant[0] ? "?" : "");
 }
 
 status case_material_file_find(const char *name, const char *const *dirs, int n_dirs, char path[MATERIAL_PATH_SIZE])
