@@ -417,6 +417,26 @@ static void test_refused(void **state)
          "}\n    - {name: ball, material: ofhc_copper, shape: {sphere: {center: -1 2 2 mm, radius: 1 mm}}" of_ball \
          "}\n"
 
+/* What is wrong with a body hides nothing of what comes after it, as long as all have names. */
+static void test_all_at_once(void **state)
+{
+    static const char *const after[] = { "scene.bodies[1].held = perhaps",
+                                         "unknown law of contact `stik` in scene.contacts[0]",
+                                         "scene.boundary.x[0] = a", "`forse` in scene.probes[0]" };
+    (void)state;
+    breech_case *c = NULL;
+    char *errors = NULL;
+    assert_int_equal(
+        read_text(BODIES("", ", held: perhaps") "  contacts: [{default: stik}]\n  boundary: {x: [a, free]}\n"
+                                                "  probes: [{name: p, forse: ball}]\n",
+                  CASE_FOR_SCENE, &c, &errors)
+            .code,
+        STATUS_BAD_INPUT);
+    for (size_t i = 0; i < sizeof after / sizeof *after; i++)
+        if (!strstr(errors, after[i])) fail_msg("%s is not said in\n%s", after[i], errors);
+    free(errors);
+}
+
 static const struct {
     const char *text, *error; /* all of it */
 } unmakable[] = {
@@ -941,6 +961,7 @@ int main(void)
         cmocka_unit_test(test_old_keys),
         cmocka_unit_test(test_tree),
         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_all_at_once),
         cmocka_unit_test(test_unmakable),
         cmocka_unit_test(test_driven),
         cmocka_unit_test(test_every_probe),

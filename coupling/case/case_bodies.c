@@ -211,6 +211,13 @@ static void read_bodies(case_reader *r, const tree_node *list)
     }
 }
 
+static bool all_have_names(const mpm_scene *s)
+{
+    for (int b = 0; b < s->bodies; b++)
+        if (!s->body[b].name[0]) return false;
+    return s->bodies > 0;
+}
+
 /* ---- contacts ---- */
 
 static const char *law_name(const void *user, int i)
@@ -553,14 +560,14 @@ void case_bodies_read(case_reader *r)
         case_errors_add(r->errors, scene, "scene.end_time is missing [s]: time that is simulated");
     r->out->bodies.overlap = shared.overlap;
     read_window(r, host_tree_find(scene, "window"));
+    if (host_tree_find(scene, "boundary")) read_boundary(r, host_tree_find(scene, "boundary"));
     const int errors = r->errors->n;
     read_bodies(r, bodies);
-    if (r->errors->n > errors) return; /* what follows names bodies */
-    if (shared.overlap == OVERLAP_REFUSED) case_overlap_check(r, bodies);
+    if (!all_have_names(s)) return; /* what follows names bodies */
+    if (r->errors->n == errors && shared.overlap == OVERLAP_REFUSED) case_overlap_check(r, bodies);
     if (host_tree_find(scene, "contacts")) read_contacts(r, host_tree_find(scene, "contacts"));
     for (int k = 0; case_entry_node(host_tree_find(scene, "probes"), k); k++)
         read_probe(r, host_tree_find(scene, "probes"), k);
-    if (host_tree_find(scene, "boundary")) read_boundary(r, host_tree_find(scene, "boundary"));
     for (int k = 0; case_entry_node(host_tree_find(scene, "refine"), k); k++)
         read_refine(r, case_entry_node(host_tree_find(scene, "refine"), k), k);
     for (int k = 0; case_entry_node(host_tree_find(scene, "cavities"), k); k++)
