@@ -8,7 +8,8 @@ breech=$1
 cd "$(dirname "$0")/.."
 v=cases/verification
 quick="$v/copper_hugoniot $v/two_disks $v/spinning_strut $v/bending_strut $v/sod $v/notched_bar cases/rail_life
-    cases/rail_life/treatments.yaml cases/rail_fatigue cases/gel_droplet cases/gel_droplet/sphere.yaml cases/gel_droplet/three.yaml"
+    cases/rail_life/treatments.yaml cases/rail_fatigue cases/gel_droplet cases/gel_droplet/sphere.yaml
+    cases/gel_droplet/three.yaml"
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
@@ -26,7 +27,7 @@ for list in cases/*/*expected.yaml "$v"/*/*expected.yaml; do
     [ "${BREECH_FULL:-0}" = 1 ] || [[ " $(echo $quick) " == *" $case "* ]] || continue
     command=$(sed -nE '1s/^# Of `breech ([a-z]+)`.*/\1/p' "$list")
     if [[ $case == "$v"/* ]]; then command=scene; fi
-    [ -n "$command" ] || { echo "$list: its first line does not say of which command, as \"# Of \`breech life\`.\"" && exit 1; }
+    [ -n "$command" ] || { echo "$list: its first line does not say of which command it is" && exit 1; }
     printf '%s %s\n' "$command" "$case"
     "$breech" "$command" "$case" -o "$out/run" --force --quiet --set output.report=no --set output.snapshots=0 \
         2>"$out/said" || { cat "$out/said" && exit 1; }

@@ -180,7 +180,7 @@ static void unit_at(const comparison *c, const summary_place *p, char unit[SUMMA
     const summary_key *k = p->key;
     unit[0] = '\0';
     if (!k) return;
-    const char *own = text_of(p->owner, "unit"), *integral = output_unit_over_time(own), *found = k->unit;
+    const char *own = text_of(p->owner, "unit"), *integral = output_unit_over_time(own), *found = "";
     const bool over_time = !k->unit[0] && own[0] && k->kind == KEY_NUMBER && k->n > 1;
     if (k->unit[0])
         found = k->unit;
