@@ -46,8 +46,11 @@ double circuit_shot_next_firing(const circuit_shot *s)
 static void group_block(circuit_shot *s, int k)
 {
     supply_group *g = &s->model.groups[k];
-    circuit_shot_y(s)[g->first] = 0.0;
+    double *y = circuit_shot_y(s) + g->first, heat[HEAT_PLACES] = { 0.0 };
+    y[0] = 0.0;
     const bool again = g->pulses-- > 0;
+    if (!again && g->kind->ended) g->kind->ended(g, y, heat);
+    for (int h = 0; h < HEAT_PLACES; h++) circuit_shot_z(s)[Y_COIL + h] += g->n * heat[h];
     g->gate = again ? GATE_WAITING : GATE_BLOCKED;
     switched(s, again ? CIRCUIT_SHOT_WAITING : CIRCUIT_SHOT_BLOCKED, k);
 }

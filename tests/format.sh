@@ -14,6 +14,9 @@ if [ -z "$tool" ] || ! "$tool" --version | grep -q 'version 14\.'; then
 fi
 if [ "${1:-}" = --fix ]; then
     shift
+    for file in "$@"; do # the order of a .def is its own
+        case $file in *.[ch]) ;; *) echo "$file: only .c and .h are formatted" >&2 && exit 2 ;; esac
+    done
     if [ $# -gt 0 ]; then exec "$tool" -i "$@"; fi
     sources '\.[ch]$' | xargs "$tool" -i
     exit 0

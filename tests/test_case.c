@@ -173,7 +173,7 @@ static void all_errors_at_once(void **state)
         "  inductence: 3 uH\n"
         "rail: {height: 25 mm, thickness: 20 kV, separation: 25 mmm, level: skim, material: ofhc_coper, temperature: "
         "5000 degC}\n"
-        "armature: {leadangle: 30 deg, material: al7075_t651}\n"
+        "armature: {leadangle: 30 deg, material: al7075_t651, head_thickness: 10 mm}\n"
         "scene: {friction: 0.2 mm, velocity: 20 km/s, damage: maybe, particles_per_axis: 2.5}\n"
         "sites: [{position: 3 m, shape: hemisfere}, text]\n"
         "velocity: 3 m/s\n";
@@ -642,6 +642,16 @@ static void halves_of_a_section(void **state)
     case_free(c);
     char *e = errors_of("name: a\nrail: {material: ofhc_copper}\n", NULL, 0, CASE_FOR_INDUCTANCE);
     has_line(e, "case.yaml:2:7: rail.height is missing [m]");
+    free(e);
+    /* an armature's metal, which the circuit takes too, asks for no body; one of its lengths does, and a scene */
+    c = read_text("name: a\narmature: {mass: 1 kg, material: ofhc_copper}\n");
+    assert_true(c->given.armature && !case_has_body(c) && c->armature.density == 8960.0);
+    case_free(c);
+    e = errors_of("name: a\narmature: {mass: 1 kg, material: ofhc_copper, length: 20 mm}\n", NULL, 0, 0);
+    has_line(e, "case.yaml:2:11: armature.lead_angle is missing [rad]");
+    free(e);
+    e = errors_of("name: a\narmature: {mass: 1 kg, material: ofhc_copper}\n", NULL, 0, CASE_FOR_SCENE);
+    has_line(e, "case.yaml:2:11: armature.length is missing [m]");
     free(e);
 }
 

@@ -475,6 +475,23 @@ static void damping(void **state)
     assert_int_equal(circuit_shot_create(&c, &s).code, STATUS_BAD_INPUT);
 }
 
+/* Where the module's current ends, its coil still carries one through the resistor beside it: that is heat, not stored
+ * for ever. */
+static void damped_coil_ends_empty(void **state)
+{
+    (void)state;
+    circuit_shot_module m = unit_200kJ(8, 0.0);
+    m.cable_inductance = 1e-6;
+    m.damping_resistance = 0.01;
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+    circuit_shot *s = run(&c);
+    const circuit_shot_state end = circuit_shot_now(s);
+    print_message("coil %g J, its heat %g J\n", end.ledger.coils, end.ledger.coil_heat);
+    assert_true(end.ledger.coils == 0.0);
+    circuit_shot_free(s);
+}
+
 /* ---- feeds along the barrel, muzzle shunt ---- */
 
 static void feed_at_the_breech_is_the_breech(void **state)
@@ -711,6 +728,7 @@ int main(void)
         cmocka_unit_test(ringing),
         cmocka_unit_test(reversal_through_a_crowbar),
         cmocka_unit_test(damping),
+        cmocka_unit_test(damped_coil_ends_empty),
         cmocka_unit_test(feed_at_the_breech_is_the_breech),
         cmocka_unit_test(joining_on_the_way),
         cmocka_unit_test(a_barrel_of_feeds),

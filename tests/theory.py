@@ -5,6 +5,7 @@
   - a tag stands once, and behind its equation a line `**C-1** · `function` in `file` · source`; the file is there and
     holds the function; a source that is a link stands in the bibliography
   - a tag that code, tests or pages name, as (C-1), has an equation
+  - a law of mpm/law with constants of its own has an equation, or names that which they stand in
   - an entry of the bibliography has its own name as anchor and is cited by a page
   - the table of equations in docs/theory/README.md is the one that --write writes, and drawings are as
     docs/site/figures.py draws them"""
@@ -70,6 +71,19 @@ def faults_of_sources(pages):
     return faults + [f"no page cites {key}" for key in sorted(names - cited)]
 
 
+def faults_of_laws(laws, lines):
+    """laws: of each file its text; lines: all those behind equations."""
+    constants = re.compile(r"^(?:CONSTANT|CONTACT_VALUE)\(", flags=re.M)
+    return [f"{name}: its constants have no equation in docs/theory" for name, text in sorted(laws.items())
+            if constants.search(text) and not NAMED.search(text) and not any(f"`{name}`" in line for line in lines)]
+
+
+def law_files():
+    folder = os.path.join(ROOT, "mpm", "law")
+    kinds = [name[:-4] + "_" for name in os.listdir(folder) if name.endswith(".def")]
+    return {f"mpm/law/{name}": read("mpm", "law", name) for name in os.listdir(folder) if name.startswith(tuple(kinds))}
+
+
 def table(equations):
     lines = ["| tag | equation | computed by |", "|---|---|---|"]
     for tag, page, section, line in sorted(equations, key=lambda one: (one[0][0], int(one[0][2:]))):
@@ -100,6 +114,9 @@ def try_itself():
     assert "nothing.h" in faults_of_line("X-1", "p.md", found[0][3])[0]
     assert "nothing_of" in faults_of_line("X-1", "p.md", "`nothing_of` in `mpm/law/law.h` · own")[0]
     assert faults_of_line("X-1", "p.md", "`mpm/law/law.h`")
+    with_constants = {"mpm/law/eos_x.h": 'CONSTANT(x, "1")\n'}
+    assert faults_of_laws(with_constants, ["`f` in `mpm/law/eos_y.h` · own"])
+    assert not faults_of_laws(with_constants, ["`f` in `mpm/law/eos_x.h` · own"])
     assert faults_of_sources({"bibliography.md": '<a id="a1"></a>**a1**: A', "p.md": "[b2](bibliography.md#b2)"}) == [
         "no b2 in the bibliography", "no page cites a1"]
 
@@ -119,6 +136,9 @@ def main():
     for tag, page, _, line in equations:
         faults += faults_of_line(tag, page, line)
     faults += sorted({f"{name}: ({tag}) has no equation in docs/theory" for name, tag in named_in_code() if tag not in tags})
+    laws = law_files()
+    assert len(laws) > 15, laws
+    faults += faults_of_laws(laws, [one[3] for one in equations])
     faults += faults_of_sources(pages) + faults_of_drawings()
     before, begin, rest = pages["README.md"].partition(BEGIN)
     wanted = before + begin + "\n" + table(equations) + "\n" + END + rest.partition(END)[2]

@@ -156,6 +156,15 @@ static circuit_shot_event_kind next(supply_group *g, double *y)
     return CIRCUIT_SHOT_CROWBAR;
 }
 
+/* The current left in the coil goes round through R_p, in L_p / R_p: all of it is heat at once here. */
+static void ended(const supply_group *g, double *y, double *heat)
+{
+    const circuit_shot_module *p = g->p;
+    if (!damped(p)) return;
+    heat[HEAT_COIL] += 0.5 * p->inductance * y[2] * y[2];
+    y[2] = 0.0;
+}
+
 static void stored(const supply_group *g, const double *y, double *e)
 {
     const circuit_shot_module *p = g->p;
@@ -180,6 +189,7 @@ const supply_kind circuit_kind_capacitor = {
     .scale = scale,
     .root = root,
     .next = next,
+    .ended = ended,
     .stored = stored,
     .voltage = capacitor_voltage,
 };

@@ -83,6 +83,8 @@ struct supply_kind {
     double (*knot)(const supply_group *g, double t);                   /* first time > t not to step over; NULL: none */
     double (*root)(const supply_group *g, double t, const double *y);  /* of order 1; NULL: one stage */
     circuit_shot_event_kind (*next)(supply_group *g, double *y);       /* the stage that follows, and what to call it */
+    void (*ended)(const supply_group *g, double *y, double *heat);     /* its current is over for good: what flows on
+                                                                          inside it becomes heat [J]; NULL: nothing */
     void (*stored)(const supply_group *g, const double *y, double *e); /* adds to e[STORE_PLACES] [J] */
     double (*voltage)(const supply_group *g, const double *y);         /* of capacitor, switch or machine [V] */
 };

@@ -49,6 +49,9 @@ status case_read_memory(const case_text *text, const case_options *options, bree
 
 void case_free(breech_case *c); /* NULL allowed */
 
+/* Has the armature the lengths of a body in a scene, or only what the circuit needs? */
+bool case_has_body(const breech_case *c);
+
 /* used.yaml: all values resolved, in SI with units, the materials' constants too.  Read back it gives the same case. */
 status case_write_used(const breech_case *c, FILE *file);
 

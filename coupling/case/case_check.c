@@ -87,13 +87,18 @@ static void follow_metal(const tree_node *map, const base_param *table, void *ob
                *(const double *)((const char *)m + row_of(mpm_material_params, keys->constant)->offset));
 }
 
+bool case_has_body(const breech_case *c)
+{
+    return c->given.projectile && !isnan(c->projectile.length);
+}
+
 /* Lengths of the scene's bodies that the circuit's section gives, then those of the circuit that the bodies give. */
 static void follow_lengths(breech_case *c, const tree_node *armature)
 {
     case_projectile *p = &c->projectile;
     if (!is_given(armature, "half_bore") && isnan(p->half_bore)) p->half_bore = 0.5 * c->rails.separation;
     if (!is_given(armature, "width") && isnan(p->width)) p->width = c->rails.height;
-    if (!c->given.projectile) return;
+    if (!case_has_body(c)) return;
     const base_param *table = circuit_shot_armature_params;
     const bool wears = c->armature.wear_fraction > 0.0 || c->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM;
     follow(armature, table, &c->armature, "contact_length", p->length - p->chamfer_height / tan(p->lead_angle));
@@ -200,7 +205,7 @@ static void need_length(case_reader *r, double value, const char *key, const cha
 {
     const tree_node *map = host_tree_find(r->root, "armature"), *node = host_tree_find(map, key);
     const bool wrong = has_value(map, key) || has_value(host_tree_find(r->root, "rail"), from); /* an error already */
-    if (!r->out->given.projectile || !isnan(value) || wrong) return;
+    if (!case_has_body(r->out) || !isnan(value) || wrong) return;
     case_errors_add(r->errors, node ? node : map, "armature.%s is missing [m]: give it, or rail.%s", key, from);
 }
 

@@ -144,7 +144,7 @@ static case_onset onset_of(const breech_case *c)
                          .history_interval = c->output.history_interval,
                          .sites = c->sites,
                          .populations = c->populations,
-                         .has_body = c->given.projectile,
+                         .has_body = case_has_body(c),
                          .impact = impact_of(c),
                          .study = c->study };
 }

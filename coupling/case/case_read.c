@@ -467,10 +467,23 @@ static void read_part(case_reader *r, const case_section *section, const case_se
         *(bool *)((char *)r->out + part->given) = section->also ? has_part(part, map) : map != NULL;
 }
 
+/* Does the map hold one of the numbers that this part must have, or any key of a part that must have none?  An
+ * armature's metal alone, which the circuit takes too, asks for no body in a scene. */
+static bool asks_for(const case_section *part, const tree_node *map)
+{
+    bool numbers = false;
+    for (const base_param *p = part->table; p->key; p++) {
+        if (p->kind == BASE_PARAM_TEXT || !case_value_is_required(p)) continue;
+        if (map && host_tree_find(map, p->key)) return true;
+        numbers = true;
+    }
+    return !numbers && has_part(part, map);
+}
+
 static void check_required(case_reader *r, const case_section *section, const tree_node *map, const char *path)
 {
     for (const case_section *part = section; part; part = part->also) {
-        if (section->also && !has_part(part, map) && !(part->needed_for & r->options->needs)) continue;
+        if (section->also && !asks_for(part, map) && !(part->needed_for & r->options->needs)) continue;
         for (const base_param *p = part->table; p->key; p++)
             if (case_value_is_required(p) && !host_tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
                 missing_key(r, p, map, path);
