@@ -3,6 +3,7 @@
 #include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/study/onset.h"
+#include "coupling/study/search/uncertain.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -14,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "near_common.h"
 #include "random_common.h"
 #include "status_common.h"
 
@@ -1089,6 +1091,52 @@ static void test_within_a_long_interval(void **state)
     counter.base = 1430.0;
 }
 
+/* A threshold with its interval, of whose ends the cells make `cells`; one size beside the reference. */
+static surface_result surface_of(double velocity, double lo, double hi, double cells, double bracket_above)
+{
+    const threshold_result r = { .velocity = velocity,
+                                 .interval = { lo, hi },
+                                 .bracket = { lo, bracket_above },
+                                 .of_cells = { cells, cells },
+                                 .allowance = { cells, cells } };
+    return (surface_result){ .reference = r, .sizes = 1, .size = { { .velocity = velocity, .interval = { lo, hi } } } };
+}
+
+/* What gouges grows: neither a scratch's threshold nor its upper end lies above the gouge's; where no groove was seen to
+ * grow, it ends with that.  Other sizes move along, and no allowance falls below zero. */
+static void test_order_is_kept(void **state)
+{
+    (void)state;
+    static const struct {
+        double scratch[4], seen; /* velocity, interval, share of cells; upper end of the bracket */
+        double becomes[3], allowance;
+    } to[] = {
+        { { 800, 700, 950, 50 }, 850, { 800, 700, 950 }, 50 },    /* as it should be */
+        { { 950, 850, 1050, 50 }, 1000, { 900, 800, 1000 }, 50 }, /* above the gouge's 900 */
+        { { 800, 700, 1200, 250 }, 850, { 800, 700, 1000 }, 50 }, /* ends above the gouge's 1000 */
+        { { 800, 700, 1200, 50 }, 850, { 800, 700, 1000 }, 0 },   /* by more than its cells had made of it */
+        { { 800, 700, 900, 50 }, NAN, { 800, 700, 1000 }, 150 },  /* never seen to grow */
+    };
+    case_onset c = { .study = { .interval_parts = { 0 } } };
+    for (size_t i = 0; i < sizeof to / sizeof *to; i++) {
+        grain_family f = { .scratch = true, .surface = surface_of(900, 800, 1000, 50, 950) };
+        f.scratches = surface_of(to[i].scratch[0], to[i].scratch[1], to[i].scratch[2], to[i].scratch[3], to[i].seen);
+        grain_families all = { .c = &c, .n = 1, .family = &f };
+        const uncertain_inputs none = { .n = 0 };
+        study_uncertain_widen(&none, &all, &all);
+        const threshold_result *r = &f.scratches.reference;
+        const surface_size *size = &f.scratches.size[0];
+        assert_near(r->velocity, to[i].becomes[0], 1e-9);
+        for (int side = 0; side < 2; side++) {
+            assert_near(r->interval[side], to[i].becomes[1 + side], 1e-9);
+            assert_near(size->interval[side], to[i].becomes[1 + side], 1e-9);
+        }
+        assert_near(size->velocity, to[i].becomes[0], 1e-9);
+        assert_near(r->allowance[1], to[i].allowance, 1e-9);
+        assert_near(f.surface.reference.interval[1], 1000, 0);
+    }
+}
+
 /* study.max_scenes is never passed, whichever search it runs out in; the scratch velocity then is what the scenes of
  * the gouge's search say, or not known. */
 static void test_max_scenes(void **state)
@@ -1259,6 +1307,7 @@ int main(void)
         cmocka_unit_test(test_two_speeds),
         cmocka_unit_test(test_finer_cells),
         cmocka_unit_test(test_within_a_long_interval),
+        cmocka_unit_test(test_order_is_kept),
         cmocka_unit_test(test_max_scenes),
         cmocka_unit_test(test_two_kinds),
         cmocka_unit_test(test_resume),
