@@ -154,13 +154,23 @@ static void find_void(mpm *m, int cavity)
     for (int i = 0; i < n; i++) c->map[c->queue[i]] = (uint8_t)(CAVITY_VOID | (cavity + 1));
 }
 
+/* Of the cavity and those that have joined it the first that has a wall; NULL: none has. */
+static const mpm_cavity *walled(const mpm *m, int cavity)
+{
+    if (m->scene.cavity[cavity].wall >= 0) return &m->scene.cavity[cavity];
+    for (int k = 0; k < m->cavities->n; k++)
+        if (m->cavities->state[k].joined == cavity && m->scene.cavity[k].wall >= 0) return &m->scene.cavity[k];
+    return NULL;
+}
+
 static void look_for_burst(mpm *m, int cavity)
 {
     mpm_cavity_state *s = &m->cavities->state[cavity];
+    const mpm_cavity *is = walled(m, cavity);
     bool out;
-    if (m->scene.cavity[cavity].wall < 0 || !isnan(s->burst_time)) return;
+    if (!is || !isnan(s->burst_time)) return;
     flood(m, seeds(m->cavities, cavity), WALL, &out);
-    if (out) s->burst_time = m->time, s->open_hole = m->scene.cavity[cavity].hole;
+    if (out) s->burst_time = m->time, s->open_hole = is->hole;
 }
 
 /* ---- the nodes about it ---- */
