@@ -65,6 +65,10 @@ static void test_senseless(void **state)
     assert_int_equal(run("check " SHOT " --set study.shots=3"), 0);
     assert_ready(true, "shot scene onset inductance");
     assert_ready(false, "strike life vessel compare sweep");
+    assert_int_equal(run("check " CASES "/shot_target --set 'optimise={goal: velocity}'"), 0); /* that of the arrival */
+    assert_ready(true, "strike inductance");
+    assert_ready(false, "shot");
+    assert_int_equal(run("check " SHOT " --set study.shots=3"), 0);
     assert_false(contains("out.txt", "warning: study.max_scenes"));
     assert_true(contains("out.txt", " ns a point and step") && contains("out.txt", ", as just measured"));
     assert_true(contains("out.txt", "likely: 1.8 times that") && contains("out.txt", "\n  likely some "));

@@ -4,6 +4,7 @@
 
   figures.py BREECH OUT [PAGE ...]   runs each command once and compares; exit 1 with a list of what differs
   figures.py --text [PAGE ...]       runs nothing: is every figure of a list in the prose before it?
+  figures.py BREECH --try [PAGE ...] begins each command and stops it at once: is it still taken?
   --threads N                        of each run; --only TEXT: commands that contain it
 
 Behind the paragraph or table that states figures stands a comment: the command, then a list as in expected.yaml
@@ -23,6 +24,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 from runs import ROOT, Runs
 
@@ -92,7 +94,10 @@ def case_of(words):
 def compare(runs, claim):
     """What of a claim does not hold, as `breech check --expect` says it of the run."""
     name = folder_of(claim.words)
-    run, _ = runs.run(name, claim.words)
+    try:
+        run, _ = runs.run(name, claim.words)
+    except SystemExit as failed: # the others are compared all the same
+        return ["%s: %s" % (claim.where(), failed)]
     case = os.path.join(ROOT, case_of(claim.words))
     lists = os.path.join(runs.out, name + ".claim")
     os.makedirs(lists, exist_ok=True)
@@ -105,6 +110,24 @@ def compare(runs, claim):
         return []
     lines = [line for line in told.stdout.splitlines() if line.endswith("FAILS")] or [told.stdout + told.stderr]
     return ["%s: %s: %s" % (claim.where(), claim.command(), line) for line in lines]
+
+
+STOPPED = 75  # exit code of a run that --max-walltime has stopped
+
+
+def refused(breech, claim):
+    """What the program says against a claim's command, as it stands."""
+    with tempfile.TemporaryDirectory() as out:
+        command = [breech, *claim.words, "-o", os.path.join(out, "run"), "--max-walltime", "0.01", "--no-store", "--quiet"]
+        told = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    if told.returncode in (0, STOPPED):
+        return []
+    return ["%s: %s: %s" % (claim.where(), claim.command(), told.stderr.strip())]
+
+
+def once(claims):
+    """The first claim of each command."""
+    return list({claim.command(): claim for claim in reversed(claims)}.values())
 
 
 def taken(words, option):
@@ -120,14 +143,16 @@ def taken(words, option):
 def main():
     words = sys.argv[1:]
     threads, only = int(taken(words, "--threads") or 0), taken(words, "--only") or ""
-    text_alone = "--text" in words
-    words = [word for word in words if word != "--text"]
-    if not text_alone and len(words) < 2:
+    text_alone, tries = "--text" in words, "--try" in words
+    words = [word for word in words if word not in ("--text", "--try")]
+    others = 0 if text_alone else 1 if tries else 2  # words before the pages
+    if len(words) < others:
         sys.exit(__doc__)
-    claims = [claim for page in (words[0 if text_alone else 2:] or all_pages()) for claim in claims_of(page)
-              if only in claim.command()]
+    claims = [claim for page in (words[others:] or all_pages()) for claim in claims_of(page) if only in claim.command()]
     faults = [fault for claim in claims for fault in claim.unsaid()]
-    if not text_alone:
+    if tries:
+        faults += [fault for claim in once(claims) for fault in refused(os.path.realpath(words[0]), claim)]
+    elif not text_alone:
         runs = Runs(words[0], words[1], threads)
         faults += [fault for claim in claims for fault in compare(runs, claim)]
     print("%d figures of %d commands" % (sum(len(claim.entries) for claim in claims),
