@@ -1102,8 +1102,8 @@ static surface_result surface_of(double velocity, double lo, double hi, double c
     return (surface_result){ .reference = r, .sizes = 1, .size = { { .velocity = velocity, .interval = { lo, hi } } } };
 }
 
-/* What gouges grows: neither a scratch's threshold nor its upper end lies above the gouge's; where no groove was seen to
- * grow, it ends with that.  Other sizes move along, and no allowance falls below zero. */
+/* What gouges grows: neither a scratch's threshold nor its upper end lies above the gouge's; where no groove was seen
+ * to grow, it ends with that.  Other sizes move along, and no allowance falls below zero. */
 static void test_order_is_kept(void **state)
 {
     (void)state;

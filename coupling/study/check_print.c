@@ -14,8 +14,8 @@ unsigned study_check_needs(const case_inputs *in)
 {
     const case_given *g = &in->given;
     /* a charge that is to be found for the velocity of an arrival: `breech shot` knows none */
-    const bool arrival = g->strike && g->optimise && in->optimise.goal == CIRCUIT_FIRING_VELOCITY &&
-                         isnan(in->optimise.muzzle_velocity);
+    const bool arrival =
+        g->strike && g->optimise && in->optimise.goal == CIRCUIT_FIRING_VELOCITY && isnan(in->optimise.muzzle_velocity);
     unsigned needs = 0;
     for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++)
         if (g->supplies[k] && !arrival) needs |= CASE_FOR_SHOT;
