@@ -11,6 +11,7 @@ GRAINS = [  # case, what it is
     ("deposit", "aluminium droplet 36 um high"),
     ("grit", "sand 0.2 mm across, loose"),
     ("rim", "rim of a gouge, 0.3 mm high"),
+    ("ridge", "ridge across the rail, 15 um high"),
 ]
 
 
