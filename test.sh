@@ -3,7 +3,8 @@
 # All tests.    ./test.sh          gcc, optimised; clang with sanitizers, without what is slow     (minutes)
 #               ./test.sh --full   the long parts too; all short parts with both compilers, optimised and sanitized,
 #                                  and the portable build; the reader fuzzed with 10^6 inputs; a twelfth of the
-#                                  deliberate faults, another one for every commit (all: tests/mutants/run.sh)   (hours)
+#                                  deliberate faults and a sixth of the figures' commands, others for every commit
+#                                  (all: tests/mutants/run.sh, tests/validate/figures.py)   (hours)
 # Installs missing Debian packages.  The last lines repeat the closing line of every ctest run.
 set -euo pipefail
 cd "$(dirname "$0")"

@@ -5,7 +5,8 @@
   figures.py BREECH OUT [PAGE ...]   runs each command once and compares; exit 1 with a list of what differs
   figures.py --text [PAGE ...]       runs nothing: is every figure of a list in the prose before it?
   figures.py BREECH --try [PAGE ...] begins each command and stops it at once: is it still taken?
-  --threads N                        of each run; --only TEXT: commands that contain it
+  --threads N                        of each run; --only TEXT: commands that contain it; --part K/N: every Nth of
+                                     them, from the Kth on (K = 0 .. N - 1)
 
 Behind the paragraph or table that states figures stands a comment: the command, then a list as in expected.yaml
 (docs/reference/output.md, "What a case expects").  PAGE: README.md, docs/theory/onset.md ..; default all.
@@ -130,6 +131,13 @@ def once(claims):
     return list({claim.command(): claim for claim in reversed(claims)}.values())
 
 
+def part_of(claims, part):
+    """Those of every Nth command, from the Kth on, for the text K/N."""
+    k, n = (int(number) for number in part.split("/"))
+    commands = sorted({claim.command() for claim in claims})[k::n]
+    return [claim for claim in claims if claim.command() in commands]
+
+
 def taken(words, option):
     """Value of an option, taken out of the words; None: not given."""
     if option not in words:
@@ -143,12 +151,14 @@ def taken(words, option):
 def main():
     words = sys.argv[1:]
     threads, only = int(taken(words, "--threads") or 0), taken(words, "--only") or ""
+    part = taken(words, "--part") or "0/1"
     text_alone, tries = "--text" in words, "--try" in words
     words = [word for word in words if word not in ("--text", "--try")]
     others = 0 if text_alone else 1 if tries else 2  # words before the pages
     if len(words) < others:
         sys.exit(__doc__)
     claims = [claim for page in (words[others:] or all_pages()) for claim in claims_of(page) if only in claim.command()]
+    claims = part_of(claims, part)
     faults = [fault for claim in claims for fault in claim.unsaid()]
     if tries:
         faults += [fault for claim in once(claims) for fault in refused(os.path.realpath(words[0]), claim)]
