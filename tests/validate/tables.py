@@ -80,7 +80,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "pairs": ("docs/validation/pairs.md", part_pairs.pairs, 60, False),
     "pairs-null": ("docs/validation/pairs.md", part_pairs.nulls, 1, True),
     "inputs": ("docs/validation/inputs.md", part_strength.inputs, 70, False),
-    "initiators": ("docs/validation/initiators.md", part_initiators.initiators, 20, False),
+    "initiators": ("docs/validation/initiators.md", part_initiators.initiators, 80, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 
