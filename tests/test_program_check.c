@@ -138,6 +138,7 @@ static void test_check_says_what_a_study_takes(void **state)
 static void test_check_refuses_what_fits_nowhere(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     assert_int_equal(run("check " CASES "/sphere_plate --set scene.cell='0.005 mm'"), 2); /* 30 TB */
     assert_true(contains("err.txt", "take larger cells"));
     assert_int_equal(run("scene " CASES "/sphere_plate --set scene.cell='0.005 mm' -o too_large"), 2);
