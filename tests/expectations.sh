@@ -16,15 +16,16 @@ trap 'rm -rf "$out"' EXIT
 # The case of a list: its folder, or NAME.yaml for NAME_expected.yaml.
 case_of()
 {
-    local name
-    name=$(basename "$1" expected.yaml)
+    local name=${1##*/}
+    name=${name%expected.yaml}
     if [ -z "$name" ]; then dirname "$1"; else printf '%s/%s.yaml\n' "$(dirname "$1")" "${name%_}"; fi
 }
 
-bad=0
+bad=0 run=
 for list in cases/*/*expected.yaml "$v"/*/*expected.yaml; do
     case=$(case_of "$list")
     [ "${BREECH_FULL:-0}" = 1 ] || [[ " $(echo $quick) " == *" $case "* ]] || continue
+    run+=" $case"
     command=$(sed -nE '1s/^# Of `breech ([a-z]+)`.*/\1/p' "$list")
     if [[ $case == "$v"/* ]]; then command=scene; fi
     [ -n "$command" ] || { echo "$list: its first line does not say of which command it is" && exit 1; }
@@ -32,5 +33,8 @@ for list in cases/*/*expected.yaml "$v"/*/*expected.yaml; do
     "$breech" "$command" "$case" -o "$out/run" --force --quiet --set output.report=no --set output.snapshots=0 \
         2>"$out/said" || { cat "$out/said" && exit 1; }
     "$breech" check "$case" --expect "$out/run" || bad=1
+done
+for case in $quick; do
+    [[ "$run " == *" $case "* ]] || { echo "$case: was to be run, and has no list of expectations" && bad=1; }
 done
 exit $bad
