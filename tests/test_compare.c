@@ -602,6 +602,25 @@ static void test_polished_to_nothing(void **state)
     case_free(c);
 }
 
+/* Two surfaces on which every grain gouges: one that does so from the lowest velocity of the search on is the worse. */
+static void test_gouges_from_the_lowest(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD "sites: [{position: 2.5 m}]\n"
+                               "treatments: [{name: warm, preheat: {temperature: 1100 K}}]\n",
+                          ALL);
+    c->study.velocity_low = 1200.0;
+    compare_answer a;
+    OK(run_compare(c, "lowest", &a));
+    const compare_entry *warm = entry_of(&a, "warm");
+    assert_true(isnan(warm->threshold_velocity) && isnan(warm->threshold_interval[0]));
+    assert_true(warm->gouges == 1.0 && entry_of(&a, "untreated")->gouges == 1.0);
+    assert_int_equal(rank_of(&a, "warm"), 1);
+    assert_int_equal(warm->tied, 1);
+    study_compare_answer_free(&a);
+    case_free(c);
+}
+
 static void test_ranking(void **state)
 {
     (void)state;
@@ -1914,6 +1933,7 @@ int main(void)
         cmocka_unit_test(test_refused_sets),
         cmocka_unit_test(test_impossible),
         cmocka_unit_test(test_presets),
+        cmocka_unit_test(test_gouges_from_the_lowest),
         cmocka_unit_test(test_ranking),
         cmocka_unit_test(test_life_beside_grains),
         cmocka_unit_test(test_longest_life),

@@ -22,6 +22,7 @@ typedef struct {
     double shift;       /* of the coarse cells [m/s] */
     double noise;       /* of the severity, in units of 150 m/s [1] */
     double steep;       /* severity = tanh of this many times its distance over 150 m/s, 0: linear */
+    double doubt;       /* |severity| below which the class is undecided */
     int calls, fail_at;
 } grains;
 
@@ -38,7 +39,8 @@ static status outcome(grains *g, double radius, double v, double cells, threshol
     double far = (v - truth(g, radius) - (cells < 2.5 ? g->shift : 0.0)) / 150.0;
     far += g->noise * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0);
     const double excess = g->steep > 0.0 ? tanh(g->steep * far) : far;
-    *out = (threshold_sample){ v, cells, excess, excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH };
+    const damage_class class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    *out = (threshold_sample){ v, cells, excess, fabs(excess) < g->doubt ? DAMAGE_UNDECIDED : class };
     return status_ok();
 }
 
@@ -244,6 +246,49 @@ static void test_rises_with_size(void **state)
     assert_true(said == 5);
 }
 
+/* An undecided scene ends no size's interval, its own or another's: each known end lies outside of the doubt. */
+static void test_undecided(void **state)
+{
+    (void)state;
+    static const double slopes[] = { 0.0, 0.1 };
+    int inferred = 0;
+    for (int i = 0; i < 100; i++) {
+        surface_plan p = plan_of(4 + i % 9, 0.05);
+        p.search.coarse = p.search.fine;
+        p.search.scatter = i % 2 ? 0.3 : 0.0;
+        grains g = { .base = 1250.0 + 5.0 * i, .slope = slopes[i / 2 % 2], .doubt = 0.3 };
+        const surface_result r = search(&g, &p);
+        for (int k = 0; k < r.sizes; k++) {
+            const surface_size *s = &r.size[k];
+            const double v = truth(&g, s->radius), doubt = 150.0 * g.doubt - 1e-9;
+            if (!isnan(s->interval[0])) assert_true(s->interval[0] <= v - doubt);
+            if (!isnan(s->interval[1])) assert_true(s->interval[1] >= v + doubt);
+            inferred += k != p.reference && !isnan(s->interval[0]) && !isnan(s->interval[1]);
+        }
+    }
+    assert_true(inferred > 100);
+}
+
+/* A size whose own undecided scenes turn back has an interval as far as where its scenes decide, no less. */
+static void test_turns_back(void **state)
+{
+    (void)state;
+    surface_plan p = plan_of(2, 0.05);
+    p.search.coarse = p.search.fine;
+    const double r = p.size[0], reference = p.size[p.reference];
+    const surface_sample list[] = {
+        { reference, { 1500.0, 3.0, 1.0, DAMAGE_GOUGE } }, { reference, { 1200.0, 3.0, -1.0, DAMAGE_SCRATCH } },
+        { r, { 1200.0, 3.0, -1.0, DAMAGE_SCRATCH } },      { r, { 1300.0, 3.0, 0.1, DAMAGE_UNDECIDED } },
+        { r, { 1325.0, 3.0, -0.1, DAMAGE_UNDECIDED } },    { r, { 1700.0, 3.0, 1.0, DAMAGE_GOUGE } },
+    };
+    surface_search s;
+    OK(study_surface_conclude(&p, list, 6, &s));
+    const surface_result *of = &s.result;
+    assert_false(of->monotone);
+    assert_true(of->size[0].interval[0] == 1200.0 - of->reference.allowance[0]);
+    assert_true(of->size[0].interval[1] == 1700.0 + of->reference.allowance[1]);
+}
+
 static void test_budget(void **state)
 {
     (void)state;
@@ -329,6 +374,8 @@ int main(void)
         cmocka_unit_test(test_knee),
         cmocka_unit_test(test_slow_barrel),
         cmocka_unit_test(test_rises_with_size),
+        cmocka_unit_test(test_undecided),
+        cmocka_unit_test(test_turns_back),
         cmocka_unit_test(test_budget),
         cmocka_unit_test(test_errors),
         cmocka_unit_test(test_at),

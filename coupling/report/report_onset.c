@@ -110,11 +110,10 @@ static void verdict_sentence(const page *p)
         }
         fputs("</p>\n", p->out);
     } else {
-        fputs("Undecided: this shot comes near the speed at which a grain gouges", p->out);
-        if (is_known(&v)) {
-            fputs(", ", p->out);
-            write_known(p->out, &v, "m/s");
-        }
+        fputs(is_known(&v) ? "Undecided: this shot comes near the speed at which a grain gouges, "
+                           : "Undecided: from which speed on a grain gouges is not known",
+              p->out);
+        if (is_known(&v)) write_known(p->out, &v, "m/s");
         fputs(".</p>\n", p->out);
     }
 }
@@ -123,11 +122,12 @@ static void verdict_sentence(const page *p)
 
 enum { STRIP_WIDTH = 440, STRIP_LEFT = 14, STRIP_RIGHT = 14 };
 
-/* Fades from one colour to the next over an interval of the barrel; nothing where its ends are not known. */
-static void strip_zone(FILE *out, const report_scale *s, const known *x, double end, int n, const char *from,
-                       const char *to)
+/* Fades from one colour to the next over an interval of the barrel, from the breech where its lower velocity is not
+ * known; nothing where nothing is. */
+static void strip_zone(FILE *out, const report_scale *s, const known *x, const known *v, double end, int n,
+                       const char *from, const char *to)
 {
-    const double lo = isfinite(x->lo) ? x->lo : x->at, hi = isfinite(x->hi) ? x->hi : end;
+    const double lo = isfinite(v->lo) ? x->lo : is_known(v) ? 0.0 : NAN, hi = isfinite(x->hi) ? x->hi : end;
     if (!isfinite(lo) || lo >= end) return;
     const double a = report_scale_at(s, lo), b = fmax(report_scale_at(s, fmin(hi, end)), a + 0.1);
     fprintf(out,
@@ -162,15 +162,20 @@ static double barrel_end(const report_source *r)
 
 static void draw_strip(FILE *out, const report_source *r, double end)
 {
-    static const char *const pale[] = { "#cfe3cf", "#f1d68a", "#dd7a6c" };
+    static const char *const pale[] = { "#cfe3cf", "#f1d68a", "#dd7a6c" }, grey[] = "#d8d8d8";
+    const known scratch = known_of(r->summary, speeds[0].velocity, speeds[0].interval),
+                gouge = known_of(r->summary, speeds[1].velocity, speeds[1].interval);
+    const bool quiet = isfinite(scratch.lo) || (!is_known(&scratch) && isfinite(gouge.lo)) ||
+                       strcmp(report_text(r->summary, "verdict"), "no_gouging") == 0;
+    const char *const base = quiet ? pale[0] : grey;
     const report_scale s = { 0.0, end, STRIP_LEFT, STRIP_WIDTH - STRIP_RIGHT, false };
     double tick[REPORT_TICKS], step;
     report_svg_begin(out, STRIP_WIDTH, 104.0, "the barrel from breech to muzzle");
     fprintf(out, "<rect x=\"%d\" y=\"44\" width=\"%.1f\" height=\"22\" fill=\"%s\"/>\n", STRIP_LEFT, s.to - s.from,
-            pale[0]);
+            base);
     for (int k = 0; k < 2; k++) {
         const known x = known_of(r->summary, speeds[k].position, speeds[k].position_interval);
-        strip_zone(out, &s, &x, end, k, pale[k], pale[k + 1]);
+        strip_zone(out, &s, &x, k ? &gouge : &scratch, end, k, k ? pale[k] : base, pale[k + 1]);
     }
     fprintf(out, "<rect x=\"%d\" y=\"44\" width=\"%.1f\" height=\"22\" fill=\"none\" stroke=\"#777\"/>\n", STRIP_LEFT,
             s.to - s.from);
@@ -208,7 +213,8 @@ static void strip(const page *p)
     draw_strip(out, p->source, end);
     fclose(out);
     report_page_svg(p, "strip",
-                    "Green: no groove grows. Yellow: scratches. Red: gouges. Colours fade over what is not known. "
+                    "Green: no groove grows. Yellow: scratches. Red: gouges. Colours fade over what is not known, "
+                    "grey is not known at all. "
                     "Circles: the grains of the case.",
                     text);
 }

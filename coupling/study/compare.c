@@ -248,15 +248,22 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     judge_layers(&a->treated[i], &a->answer[i].grains, e);
 }
 
-/* Is surface i the better one?  Of equals the later threshold (never: the latest), then the order of the case. */
+/* Where gouging begins, for the order: behind the muzzle where it never does, before the breech where all scenes of the
+ * search gouge [m]. */
+static double place_of_threshold(const onset_result *r)
+{
+    if (!isnan(r->threshold_position)) return r->threshold_position;
+    const bool below = isnan(r->threshold_velocity) && isnan(r->threshold_interval[0]);
+    return below && !isnan(r->threshold_interval[1]) ? -INFINITY : INFINITY;
+}
+
+/* Is surface i the better one?  Of equals the later threshold, then the order of the case. */
 static bool is_better(const compare_answer *a, int i, int j)
 {
     const double gi = a->mean[i].gouges, gj = a->mean[j].gouges;
-    const double xi = a->answer[i].result.threshold_position, xj = a->answer[j].result.threshold_position;
+    const double xi = place_of_threshold(&a->answer[i].result), xj = place_of_threshold(&a->answer[j].result);
     if (gi != gj) return gi < gj;
-    if (isnan(xi) != isnan(xj)) return isnan(xi);
-    if (xi != xj && !isnan(xi)) return xi > xj;
-    return i < j;
+    return xi != xj ? xi > xj : i < j;
 }
 
 static double share_better(const compare_answer *all, int i, int j)

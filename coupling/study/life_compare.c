@@ -2,6 +2,7 @@
 #include "coupling/study/life_compare.h"
 
 #include "coupling/case/treatment.h"
+#include "coupling/gouge/session_shot.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -35,6 +36,16 @@ static const mpm_material *metal_of(const case_onset *plain, const case_onset *t
     return case_material(&treated->impact.materials, own ? life->material : top);
 }
 
+/* The shot of a surface that is not judged. */
+static status fly_alone(session *s, const case_onset *c, bool with_history, shot_record *record)
+{
+    const case_flight flight = case_flight_of(c);
+    shot_outcome o;
+    TRY(gouge_session_shot(s, &flight, NULL, with_history, &o, record));
+    gouge_shot_outcome_free(&o);
+    return status_ok();
+}
+
 static status run_surface(session *s, const case_onset *plain, const case_onset *treated, const case_life *life,
                           bool with_history, life_entry *e, shot_record *record)
 {
@@ -46,7 +57,7 @@ static status run_surface(session *s, const case_onset *plain, const case_onset 
     const status possible = study_rail_life_possible(&flown, life, metal);
     if (possible.code != STATUS_OK) {
         snprintf(e->lacks, sizeof e->lacks, "%.150s", possible.text);
-        return status_ok();
+        return record ? fly_alone(s, &flown, with_history, record) : status_ok();
     }
     return study_rail_life_run(s, &flown, life, metal, with_history, &e->is, record);
 }

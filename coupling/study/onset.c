@@ -188,9 +188,24 @@ static bool is_unseen(const onset_answer *a)
 
 static void forget_gouges(onset_result *r)
 {
-    r->verdict = VERDICT_UNDECIDED;
-    r->probability_gouge = r->expected_gouges = r->expected_gouged_volume = NAN;
+    r->expected_gouges = r->expected_gouged_volume = NAN;
     for (int k = 0; k < 2; k++) r->expected_gouges_interval[k] = r->expected_gouged_volume_interval[k] = NAN;
+}
+
+/* Grains of which the screen alone speaks are not drawn: where it leaves open whether they gouge, nobody knows how many
+ * do and where the first one lies. */
+static void forget_undrawn(onset_answer *a)
+{
+    onset_result *r = &a->result;
+    if (!study_onset_screen_leaves_open(a)) return;
+    forget_gouges(r);
+    r->n_along = 0;
+    for (int k = 0; k < r->n_shots; k++) {
+        onset_shot *shot = &a->repeated[k];
+        shot->probability_gouge = shot->expected_gouges = shot->expected_gouged_volume = NAN;
+        shot->onset_position = shot->onset_interval[0] = shot->onset_interval[1] = NAN;
+    }
+    if (a->grains.c->populations.n > 0) r->onset_position = r->onset_interval[0] = r->onset_interval[1] = NAN;
 }
 
 /* With a population the answer is that of the random shots. */
@@ -209,7 +224,10 @@ static void conclude_population(onset_answer *a)
     r->onset_position = first->first[1];
     r->onset_interval[0] = first->first[0];
     r->onset_interval[1] = first->first[2];
-    if (is_unseen(a)) forget_gouges(r);
+    if (!is_unseen(a)) return;
+    forget_gouges(r);
+    r->verdict = VERDICT_UNDECIDED;
+    r->probability_gouge = NAN;
 }
 
 /* ---- beside it: the null models ---- */
@@ -313,18 +331,35 @@ static void say_sites(onset_answer *a)
         of[0], of[1]);
 }
 
+static void say_velocities(onset_result *r, double velocity, const double interval[2])
+{
+    say(r, "%.0f m/s (", velocity);
+    for (int k = 0; k < 2; k++) {
+        if (isnan(interval[k]))
+            say(r, "not known");
+        else
+            say(r, "%.0f", interval[k]);
+        say(r, k ? ")" : " .. ");
+    }
+}
+
 /* With its place; an end of the interval that the armature does not reach has none. */
 static void say_threshold(onset_result *r)
 {
     const double *v = r->threshold_interval, *x = r->threshold_position_interval;
-    say(r, "threshold %.0f m/s (%.0f .. %.0f)", r->threshold_velocity, v[0], v[1]);
+    say(r, "threshold ");
+    say_velocities(r, r->threshold_velocity, v);
     if (isnan(r->threshold_position)) {
         say(r, " is not passed");
         return;
     }
-    say(r, " is passed at x = %.3f m (%.3f .. ", r->threshold_position, x[0]);
+    say(r, " is passed at x = %.3f m (", r->threshold_position);
+    if (isnan(x[0]))
+        say(r, "not known .. ");
+    else
+        say(r, "%.3f .. ", x[0]);
     if (isnan(x[1]))
-        say(r, "the muzzle or not at all)");
+        say(r, isnan(v[1]) ? "not known)" : "the muzzle or not at all)");
     else
         say(r, "%.3f)", x[1]);
 }
@@ -362,9 +397,11 @@ static void explain(onset_answer *a)
     else
         say(r, "threshold above %.0f m/s, %s", r->threshold_interval[0] + allowance[0],
             spent ? "the fastest of study.max_scenes" : "where the search ended");
-    if (isfinite(r->scratch_velocity))
-        say(r, "; grooves grow from %.0f m/s (%.0f .. %.0f) on", r->scratch_velocity, r->scratch_interval[0],
-            r->scratch_interval[1]);
+    if (isfinite(r->scratch_velocity)) {
+        say(r, "; grooves grow from ");
+        say_velocities(r, r->scratch_velocity, r->scratch_interval);
+        say(r, " on");
+    }
     if (study_onset_contradiction(a)) say(r, "; but whole scenes contradict: %s", study_onset_contradiction(a));
     say_sites(a);
     if (a->grains.c->populations.n > 0 && isfinite(r->expected_gouges))
@@ -442,6 +479,7 @@ static status study(session *s, const case_onset *c, onset_answer *a)
     TRY(search_repeated(s, a));
     TRY(draw_shots(s, a));
     conclude_population(a);
+    forget_undrawn(a);
     TRY(study_feedback_shot(s, a));
     TRY(study_sensitivities_run(s, a));
     TRY(ask_null_models(a));

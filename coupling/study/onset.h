@@ -184,6 +184,9 @@ const grain_family *study_onset_leading_grain(const onset_answer *a, double *rad
  * NULL: nowhere. */
 const char *study_onset_contradiction(const onset_answer *a);
 
+/* Are there grains of which the screen alone speaks, and which it does not call quiet? */
+bool study_onset_screen_leaves_open(const onset_answer *a);
+
 /* The scenes of the session, as a summary lists them, and what is to be warned of in them; *n of them, the caller
  * frees. */
 status study_onset_list_scenes(session *s, onset_scene **out, int *n, int *run, int *reused);

@@ -155,6 +155,11 @@ static bool may_gouge_by_screen(const onset_answer *a, int site)
     return is_unbacked(a, site) && a->site[site].screen_probability >= DOUBT;
 }
 
+bool study_onset_screen_leaves_open(const onset_answer *a)
+{
+    return a->grains.unbacked > 0 && a->grains.screen_probability >= DOUBT;
+}
+
 /* First site along the barrel, of those with an answer to be had, whose velocity has passed `end` of its threshold:
  * 0, 1 the interval's ends, 2 the threshold itself.  -1 if none. */
 static int first_site(const onset_answer *a, int end)
@@ -234,7 +239,7 @@ const grain_family *study_onset_leading_grain(const onset_answer *a, double *rad
     for (int k = 0; k < a->grains.n; k++) {
         const surface_result *s = &a->grains.family[k].surface;
         const surface_size *largest = &s->size[s->sizes - 1];
-        if (lowest && !(largest->velocity < v)) continue;
+        if (lowest && !(largest->velocity < v) && !(isnan(v) && !isnan(largest->velocity))) continue;
         lowest = &a->grains.family[k];
         v = largest->velocity;
         *radius = largest->radius;

@@ -18,7 +18,8 @@ static const double FAR =
 typedef struct {
     double low, high; /* [m/s]; a step outside the grid while not known */
     bool low_known, high_known;
-    const threshold_sample *own_low, *own_high; /* samples of this very size that stand at the ends, NULL: another's */
+    const surface_sample *at_low, *at_high;     /* samples that stand at the ends */
+    const threshold_sample *own_low, *own_high; /* the same where they are of this very size, NULL: another's */
 } band;
 
 static double grid_low(const surface_plan *p)
@@ -37,9 +38,9 @@ static void take(band *b, const surface_sample *a, double radius)
     const bool upper = study_threshold_is_upper(&a->is), own = a->radius == radius;
     const double v = a->is.velocity;
     if (upper && (own || (a->radius < radius && !(b->own_low && v <= b->low))) && v < b->high)
-        b->high = v, b->high_known = true, b->own_high = own ? &a->is : NULL;
+        b->high = v, b->high_known = true, b->at_high = a, b->own_high = own ? &a->is : NULL;
     if (!upper && (own || (a->radius > radius && !(b->own_high && v >= b->high))) && v > b->low)
-        b->low = v, b->low_known = true, b->own_low = own ? &a->is : NULL;
+        b->low = v, b->low_known = true, b->at_low = a, b->own_low = own ? &a->is : NULL;
 }
 
 static band band_of(const surface_search *s, double radius)
@@ -239,16 +240,32 @@ static void check_sizes(surface_result *r)
         }
 }
 
-/* From an end of a size's band to where its own scenes decide; the end where another size's scene stands there, or none
- * of its own decides. */
-static double decided_end(const surface_search *s, int k, const threshold_sample *end, double velocity)
+/* Samples that bound a size on the side of one of them: above, of grains no larger; below, of none smaller. */
+static int bounding(const surface_search *s, double radius, const surface_sample *like, bool own, threshold_sample *out)
 {
-    threshold_sample own[THRESHOLD_MAX_SAMPLES];
+    const bool upper = study_threshold_is_upper(&like->is);
     int n = 0;
-    for (int i = 0; i < s->result.samples && end; i++)
-        if (s->result.sample[i].radius == s->plan->size[k]) own[n++] = s->result.sample[i].is;
-    const double decided = end ? study_threshold_decided_end(&s->plan->search, own, n, end) : NAN;
-    return isnan(decided) ? velocity : decided;
+    for (int i = 0; i < s->result.samples; i++) {
+        const surface_sample *a = &s->result.sample[i];
+        const bool tells = own ? a->radius == radius : upper ? a->radius <= radius : a->radius >= radius;
+        if (tells) out[n++] = a->is;
+    }
+    return n;
+}
+
+/* From the end of a size's band to where its own scenes decide; where none of them does, or another size's stands
+ * there, to the next one that decides of any size that bounds it; NaN: none does.  Growth of several sizes lies on no
+ * line, so the scatter tells nothing between them. */
+static double decided_end(const surface_search *s, double radius, const surface_sample *end)
+{
+    threshold_sample list[THRESHOLD_MAX_SAMPLES];
+    threshold_plan alone = s->plan->search;
+    double decided = NAN;
+    if (end->radius == radius)
+        decided = study_threshold_decided_end(&alone, list, bounding(s, radius, end, true, list), &end->is);
+    if (!isnan(decided)) return decided;
+    alone.scatter = 0.0;
+    return study_threshold_decided_end(&alone, list, bounding(s, radius, end, false, list), &end->is);
 }
 
 static surface_size answer_of(surface_search *s, int k)
@@ -259,14 +276,14 @@ static surface_size answer_of(surface_search *s, int k)
     surface_size a = { .radius = p->size[k], .weight = p->weight[k], .velocity = NAN, .interval = { NAN, NAN } };
     const double *allowance = r->reference.allowance;
     for (int i = 0; i < r->samples; i++) a.scenes += r->sample[i].radius == a.radius;
-    if (b.low_known) a.interval[0] = decided_end(s, k, b.own_low, b.low) - allowance[0];
-    if (b.high_known) a.interval[1] = decided_end(s, k, b.own_high, b.high) + allowance[1];
+    if (b.low_known) a.interval[0] = decided_end(s, a.radius, b.at_low) - allowance[0];
+    if (b.high_known) a.interval[1] = decided_end(s, a.radius, b.at_high) + allowance[1];
     if (b.low_known && b.high_known) {
         a.velocity = crossing(&b);
         if (b.low >= b.high) {
             r->monotone = false; /* its own scenes turn back */
-            a.interval[0] = b.high - allowance[0];
-            a.interval[1] = b.low + allowance[1];
+            if (b.high - allowance[0] < a.interval[0]) a.interval[0] = b.high - allowance[0];
+            if (b.low + allowance[1] > a.interval[1]) a.interval[1] = b.low + allowance[1];
         }
     }
     if (k == p->reference) {

@@ -243,11 +243,6 @@ static double decided_end(const threshold_search *s, const threshold_sample *end
     return study_threshold_decided_end(s->plan, s->result.sample, s->result.samples, end);
 }
 
-static double or_else(double known, double other)
-{
-    return isnan(known) ? other : known;
-}
-
 static void warn(threshold_result *r, const char *format, ...)
 {
     const size_t used = strlen(r->warning);
@@ -277,8 +272,8 @@ static void check_monotone(threshold_result *r, double cells)
          "gouging turns back (%g cells a radius): above its limit at %g m/s, below it at %g m/s; the interval spans "
          "both (is it the place of the grid? study.threshold_ensemble: 5 tells its scatter, more cells lessen it)",
          cells, lowest_upper, highest_lower);
-    r->interval[0] = fmin(r->interval[0], lowest_upper);
-    r->interval[1] = fmax(r->interval[1], highest_lower);
+    if (lowest_upper < r->interval[0]) r->interval[0] = lowest_upper; /* not known: so it stays */
+    if (highest_lower > r->interval[1]) r->interval[1] = highest_lower;
 }
 
 /* The interval of a threshold near v reaches further by what finer cells may change, by `least` at least. */
@@ -316,8 +311,12 @@ static void conclude(threshold_search *s, const threshold_bracket *b)
     r->velocity = root(b);
     r->bracket[0] = b->lo.velocity;
     r->bracket[1] = b->hi.velocity;
-    r->interval[0] = or_else(decided_end(s, &b->lo), b->lo.velocity);
-    r->interval[1] = or_else(decided_end(s, &b->hi), b->hi.velocity);
+    r->interval[0] = decided_end(s, &b->lo);
+    r->interval[1] = decided_end(s, &b->hi);
+    for (int side = 0; side < 2; side++)
+        if (isnan(r->interval[side]))
+            warn(r, "no scene %s %g m/s decides: that end of the interval is not known", side ? "from" : "up to",
+                 r->bracket[side]);
     check_monotone(r, s->plan->coarse);
     if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
     allow(r, s->plan, r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));
