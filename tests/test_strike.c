@@ -395,6 +395,19 @@ static void test_limit(void **state)
                 0.5 * (cJSON_GetArrayItem(bracket, 0)->valuedouble + cJSON_GetArrayItem(bracket, 1)->valuedouble));
     assert_true(contains("limit/d/summary.json", "m/s 1 is not decided; a longer scene (strike.travel)"));
     cJSON_Delete(s);
+    /* the strike's own arrival is one of them: where it pierces between the two ends it is the upper one */
+    const double faster = floor(0.2 * lo + 0.8 * hi);
+    char own[200];
+    snprintf(own, sizeof own,
+             "strike limit -o limit/e --quiet --threads 1 --store limit/out/store --set "
+             "strike.velocity='%.0f m/s'",
+             faster);
+    assert_int_equal(run(own), 0);
+    s = summary_of("limit/e");
+    bracket = cJSON_GetObjectItemCaseSensitive(s, "limit_interval");
+    assert_true(cJSON_GetArrayItem(bracket, 0)->valuedouble == lo);
+    assert_true(cJSON_GetArrayItem(bracket, 1)->valuedouble == faster);
+    cJSON_Delete(s);
     assert_int_equal(run("strike limit -o limit/b --quiet --set study.velocity_low='890 m/s'"), 2);
     assert_true(contains("err.txt", "hold fewer than two velocities"));
 }

@@ -96,14 +96,35 @@ static status answer(session *s, const study_case *of, const strike_projectile *
     return status_ok();
 }
 
-/* Was an arrival no faster than this really held? */
-static bool is_held(const strike_limit *l, const strike_projectile *p, double velocity)
+/* The fastest arrival up to a velocity that was really held; the slowest from one on that was not.  NaN: none [m/s]. */
+static double fastest_held(const strike_limit *l, const strike_projectile *p, double velocity)
 {
+    double found = NAN;
     for (int i = 0; i < l->arrivals && l->arrival[i].is.impact_velocity <= velocity; i++) {
         const strike_class class = (strike_class)l->arrival[i].is.class;
-        if (class != class_above(p) && class != STRIKE_UNFINISHED) return true;
+        if (class != class_above(p) && class != STRIKE_UNFINISHED) found = l->arrival[i].is.impact_velocity;
     }
-    return false;
+    return found;
+}
+
+static double slowest_above(const strike_limit *l, const strike_projectile *p, double velocity)
+{
+    for (int i = 0; i < l->arrivals; i++) {
+        const strike_outcome *o = &l->arrival[i].is;
+        if (o->impact_velocity >= velocity && (strike_class)o->class == class_above(p)) return o->impact_velocity;
+    }
+    return NAN;
+}
+
+/* Of all arrivals, the strike's own too: the fastest held below all that are above, and the slowest above beyond all
+ * that are held, so where the limit turns back both are outside.  false: it does. */
+static bool set_ends(strike_limit *l, const strike_projectile *p)
+{
+    const double slowest = slowest_above(l, p, 0.0), fastest = fastest_held(l, p, INFINITY);
+    l->interval[0] = fastest_held(l, p, slowest);
+    l->interval[1] = slowest_above(l, p, isnan(fastest) ? 0.0 : fastest);
+    if (isnan(l->interval[1])) l->interval[1] = fastest; /* the fastest of all, held: no further is known */
+    return !(fastest > slowest);
 }
 
 /* The middle between decided arrivals; those between them are told. */
@@ -129,19 +150,19 @@ static void conclude(session *s, const case_study *c, const strike_projectile *p
     const char *above = p->piston ? "tears the plate" : "pierces";
     double arrival[THRESHOLD_MAX_SAMPLES + 1], residual[THRESHOLD_MAX_SAMPLES + 1];
     int n = 0;
+    bool monotone = r->monotone;
     for (int k = 0; k < 2; k++) l->interval[k] = r->interval[k];
-    if (r->outcome == THRESHOLD_FOUND && !is_held(l, p, r->interval[0])) {
+    if (r->outcome == THRESHOLD_FOUND) monotone = set_ends(l, p);
+    if (r->outcome == THRESHOLD_FOUND && isnan(l->interval[0]))
         run_session_warn(s,
                          "limit_interval has no lower end: no arrival below %g m/s is decided; take a longer scene "
                          "(%s), or a lower study.velocity_low",
-                         r->interval[0], p->piston ? "scene.end_time" : "strike.travel");
-        l->interval[0] = NAN;
-    }
+                         l->interval[1], p->piston ? "scene.end_time" : "strike.travel");
     if (r->outcome == THRESHOLD_FOUND) conclude_found(s, p, l);
     if (r->outcome == THRESHOLD_BELOW)
         run_session_warn(s, "the limit velocity lies below study.velocity_low = %g m/s: that %s", c->velocity_low,
                          above);
-    if (r->outcome == THRESHOLD_ABOVE && is_held(l, p, c->velocity_high))
+    if (r->outcome == THRESHOLD_ABOVE && !isnan(fastest_held(l, p, c->velocity_high)))
         run_session_warn(s, "the limit velocity lies above study.velocity_high = %g m/s: nothing up to there %s",
                          c->velocity_high, above);
     else if (r->outcome == THRESHOLD_ABOVE)
@@ -149,7 +170,7 @@ static void conclude(session *s, const case_study *c, const strike_projectile *p
                          c->velocity_high, p->piston ? "scene.end_time" : "strike.travel");
     if (r->outcome == THRESHOLD_UNKNOWN)
         run_session_warn(s, "study.max_scenes = %d did not suffice to find a limit velocity", c->max_scenes);
-    if (!r->monotone)
+    if (!monotone)
         run_session_warn(s,
                          "the limit turns back: a faster arrival than one that %s does not; limit_interval spans "
                          "both",
