@@ -72,7 +72,8 @@ static void set_charges(search *q, double scale)
     for (int k = 0; k < q->n; k++) q->modules[k].charge = scale * q->given[k].charge;
 }
 
-/* Ends with STATUS_STOPPED at the muzzle.  *travel: fraction of the barrel that was covered. */
+/* Ends with STATUS_STOPPED at the muzzle; also where nothing is left of the armature, which result tells.  *travel:
+ * fraction of the barrel that was covered. */
 static status run(search *q, double scale, flatness *f, circuit_shot_summary *result, double *travel)
 {
     const circuit_shot_barrel *b = &q->config.barrel;
@@ -87,7 +88,7 @@ static status run(search *q, double scale, flatness *f, circuit_shot_summary *re
     *travel = (circuit_shot_now(s).x - b->start) / (b->length - b->start);
     f->badness /= b->length - b->start;
     circuit_shot_free(s);
-    return done.code == STATUS_STOPPED ? status_ok() : done;
+    return done.code == STATUS_STOPPED || result->worn_away ? status_ok() : done;
 }
 
 /* ---- objectives ---- */
@@ -106,7 +107,8 @@ static status measure_flat(search *q, double *value)
  * last two trials; all stay inside the bracket. */
 static double next_factor(const double at[2], const double off[2], double wanted, double lo, double hi)
 {
-    const bool stayed = !(off[1] > -wanted); /* the armature did not leave the barrel */
+    if (hi == at[1] && !(off[1] > -wanted)) return 0.5 * (lo + hi); /* nothing was left of it: too much */
+    const bool stayed = !(off[1] > -wanted);                        /* the armature did not leave the barrel */
     double next = at[1] * (stayed ? 1.2 : wanted / (wanted + off[1]));
     if (off[0] > -wanted && off[1] > -wanted && off[0] != off[1])
         next = at[1] - off[1] * (at[1] - at[0]) / (off[1] - off[0]);
@@ -127,7 +129,7 @@ static status charge_for(search *q, flatness *f, bool *found)
         *found = fabs(now) <= VELOCITY_CLOSE * wanted;
         off[1] = now;
         if (*found) q->scale = at[1];
-        if (now < 0.0)
+        if (now < 0.0 && !r.worn_away)
             lo = at[1];
         else
             hi = at[1];
@@ -295,9 +297,9 @@ status circuit_firing_check(const circuit_shot_config *c, const circuit_firing_w
 {
     TRY(base_params_check(circuit_firing_wish_params, wish, "optimise"));
     CHECK(wish->goal != CIRCUIT_FIRING_FLAT || choose_moved(c, NULL) > 0, STATUS_BAD_INPUT,
-          "optimise: goal flat needs at least two capacitor groups that fire at the breech");
+          "optimise.goal: flat needs at least two capacitor groups that fire at the breech");
     CHECK(wish->goal != CIRCUIT_FIRING_VELOCITY || some_fires(c), STATUS_BAD_INPUT,
-          "optimise: goal velocity needs a charged capacitor group that fires (bank)");
+          "optimise.goal: velocity needs a charged capacitor group that fires (bank)");
     CHECK(wish->goal != CIRCUIT_FIRING_FLAT || !isnan(wish->peak_current), STATUS_BAD_INPUT,
           "optimise.peak_current is missing [A]: goal flat needs it");
     CHECK(wish->goal != CIRCUIT_FIRING_VELOCITY || !isnan(wish->muzzle_velocity), STATUS_BAD_INPUT,

@@ -122,7 +122,8 @@ static void peaks_update(circuit_shot *s)
     note_current(s, &d);
     circuit_shot_heat_update(s, &d);
     const double top = cubic_top(I, slope, s->last_current, s->last_slope, h);
-    s->result.peak_current = fmax(s->result.peak_current, top);
+    const double bottom = cubic_top(-I, -slope, -s->last_current, -s->last_slope, h);
+    s->result.peak_current = fmax(s->result.peak_current, fmax(top, bottom));
     if (s->model.phase == CIRCUIT_SHOT_LEFT) return;
     const shot_forces f = circuit_shot_forces_at(&s->model, &d, circuit_shot_z(s));
     circuit_shot_lead_face_update(s, &f);
@@ -192,7 +193,8 @@ static status step(circuit_shot *s, double until, const circuit_shot_sink *sink)
     const double *z = circuit_shot_z(s);
     CHECK(isfinite(z[Y_V]) && isfinite(z[Y_BREECH]), STATUS_NUMERICAL,
           "the circuit's state is not finite at t = %.9g s", s->t);
-    CHECK(z[Y_MASS] > 0.01 * s->scale[s->model.start + Y_MASS], STATUS_NUMERICAL,
+    s->result.worn_away = !(z[Y_MASS] > 0.01 * s->scale[s->model.start + Y_MASS]);
+    CHECK(!s->result.worn_away, STATUS_NUMERICAL,
           "the armature was worn away at t = %.9g s, x = %g m: lower armature.wear_fraction", s->t, z[Y_X]);
     peaks_update(s);
     bool go_on = true;

@@ -221,6 +221,7 @@ typedef struct {
     double exit_current;      /* [A] */
     double energy_error;      /* over the energy at the start [1] */
     uint64_t steps;           /* accepted steps and located instants */
+    bool worn_away;           /* nothing is left of the armature: advancing failed */
     double end_time;          /* as far as the shot was followed [s] */
     double end_position;      /* of the armature then; after its exit the muzzle [m] */
     double end_velocity;      /* then; after its exit the one it left with [m/s] */

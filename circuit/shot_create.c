@@ -219,7 +219,7 @@ static int switchings_allowed(const circuit_shot *s)
     double allowed = BY_ARMATURE + 8.0 * m->n;
     for (int k = 0; k < m->n; k++) {
         const supply_group *g = &m->groups[k];
-        allowed += 4.0 * g->pulses;
+        allowed += 4.0 * (g->kind->stays ? BY_ARMATURE : g->pulses);
         if (g->reverses) allowed += 2.0 * s->options.max_time / g->kind->rise(g->p);
     }
     return (int)fmin(allowed, MOST);

@@ -63,7 +63,8 @@ double circuit_shot_effective_frequency(const circuit_shot_config *c)
             count += at.count;
         }
     }
-    return count > 0.0 ? 0.25 / (last - first + rise / count) : NAN;
+    const double in = count > 0.0 ? last - first + rise / count : 0.0; /* 0: a coil without current */
+    return in > 0.0 ? 0.25 / in : NAN;
 }
 
 /* What the supplies hold at t = 0, or will have been charged with [J]. */

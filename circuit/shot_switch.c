@@ -48,7 +48,7 @@ static void group_block(circuit_shot *s, int k)
     supply_group *g = &s->model.groups[k];
     double *y = circuit_shot_y(s) + g->first, heat[HEAT_PLACES] = { 0.0 };
     y[0] = 0.0;
-    const bool again = g->pulses-- > 0;
+    const bool stays = g->kind->stays && g->kind->stays(g), again = stays || g->pulses-- > 0;
     if (!again && g->kind->ended) g->kind->ended(g, y, heat);
     for (int h = 0; h < HEAT_PLACES; h++) circuit_shot_z(s)[Y_COIL + h] += g->n * heat[h];
     g->gate = again ? GATE_WAITING : GATE_BLOCKED;
@@ -112,8 +112,24 @@ static void groups_settle(circuit_shot *s, const int *found)
         if (circuit_supply_blocks(g) && ((root && root[1]) || ends)) group_block(s, k);
         if (g->gate == GATE_BLOCKED || !g->kind->next) continue;
         const bool over = circuit_supply_stage_root(g, s->t, y) <= 1e-12;
-        if ((root && root[0]) || over) switched(s, g->kind->next(g, y), k);
+        if (!(root && root[0]) && !over) continue;
+        switched(s, g->kind->next(g, y), k);
+        s->forced[s->model.n + k] = y[0] <= 1e-12 * s->scale[g->first];
     }
+}
+
+/* Groups that came to their next stage without current conduct only if that would be positive: the switch of an empty
+ * coil opens at once. */
+static void groups_begin(circuit_shot *s)
+{
+    bool *before = s->forced + s->model.n, some = false;
+    for (int k = 0; k < s->model.n; k++) {
+        before[k] = !before[k] || s->model.groups[k].gate != GATE_ON;
+        some = some || !before[k];
+    }
+    if (some) groups_try(s, before);
+    for (int k = 0; k < s->model.n; k++)
+        if (!before[k] && s->model.groups[k].gate == GATE_WAITING) switched(s, CIRCUIT_SHOT_WAITING, k);
 }
 
 /* ---- the armature ---- */
@@ -206,5 +222,8 @@ void circuit_shot_settle(circuit_shot *s, const int *found)
     groups_settle(s, found);
     armature_settle(s, found);
     groups_fire(s);
-    if (s->restart) groups_settle(s, NULL);
+    if (!s->restart) return;
+    for (int k = 0; k < s->model.n; k++) s->forced[s->model.n + k] = false;
+    groups_settle(s, NULL);
+    groups_begin(s);
 }

@@ -203,6 +203,28 @@ static void resumed_at_any_trial(void **state)
     }
 }
 
+/* A trial that leaves nothing of the armature had too much charge: the search goes on below it. */
+static void worn_away(void **state)
+{
+    (void)state;
+    circuit_shot_module m[GROUPS], found[GROUPS];
+    circuit_firing_result r;
+    circuit_shot_config c = three_groups(m);
+    c.supplies[CIRCUIT_SUPPLY_capacitor].n = 1;
+    c.armature.wear_fraction = 1.0;
+    c.armature.mass = 0.02;
+    m[0].charge *= 3.0;
+    circuit_shot *s = NULL;
+    OK(circuit_shot_create(&c, &s));
+    assert_int_equal(circuit_shot_advance(s, INFINITY, NULL).code, STATUS_NUMERICAL);
+    assert_true(circuit_shot_result(s).worn_away);
+    circuit_shot_free(s);
+    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_VELOCITY);
+    w.muzzle_velocity = 600.0;
+    OK(circuit_firing_optimise(&c, &w, NULL, found, &r));
+    assert_true(fabs(shoot(c, found).muzzle_velocity / 600.0 - 1.0) < 2e-5 && r.charge_scale < 1.0);
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -229,6 +251,7 @@ int main(void)
         cmocka_unit_test(keeps_its_budget),
         cmocka_unit_test(stopped_at_any_trial),
         cmocka_unit_test(resumed_at_any_trial),
+        cmocka_unit_test(worn_away),
         cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -289,6 +289,75 @@ static void opening_switch(void **state)
     circuit_shot_free(s);
 }
 
+/* A bank drives the rails above the opening voltage before the current has gone over, and the store's back to zero: the
+ * arc goes on.  It takes L_s di_s/dt = -U - R i_s, until it is over or the rails let the store conduct again. */
+static void arc_goes_on(void **state)
+{
+    (void)state;
+    circuit_supply_inductor p = samples().inductor;
+    p.battery_voltage = 0.0;
+    p.resistance = 0.0;
+    p.opening_voltage = 300.0;
+    circuit_shot_module m = unit_200kJ(8, 1e-4);
+    m.inductance = 3e-6;
+    circuit_shot_config c = plain_barrel();
+    c.barrel.start = 0.5;
+    c.supplies[CIRCUIT_SUPPLY_inductor] = (circuit_supply_list){ 1, &p };
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+    circuit_shot *s = NULL;
+    const circuit_shot_sink sink = notes_sink(&notes);
+    OK(circuit_shot_create(&c, &s));
+    double heat[2];
+    for (int k = 0; k < 2; k++) {
+        OK(circuit_shot_advance(s, 2e-4 + 1e-4 * k, &sink));
+        assert_int_equal(notes.count[CIRCUIT_SHOT_WAITING], 1);
+        assert_int_equal(notes.count[CIRCUIT_SHOT_BLOCKED] + notes.count[CIRCUIT_SHOT_COMMUTATED], 0);
+        heat[k] = circuit_shot_now(s).ledger.switch_heat;
+    }
+    const double U = p.opening_voltage, between = U * (p.current * 1e-4 - 0.5 * U / p.inductance * (9e-8 - 4e-8));
+    assert_near(heat[1] - heat[0], between, 1e-5 * between);
+    OK(circuit_shot_advance(s, INFINITY, &sink));
+    assert_true(notes.count[CIRCUIT_SHOT_FIRED] == 3); /* the store, the bank, and the store once more */
+    assert_int_equal(notes.count[CIRCUIT_SHOT_COMMUTATED], 1);
+    assert_true(notes.worst_error < 1e-6);
+    circuit_shot_free(s);
+}
+
+/* A store without current or battery asks for no frequency of its pulse: it rests. */
+static void empty_store(void **state)
+{
+    (void)state;
+    circuit_supply_inductor p = samples().inductor;
+    p.current = p.battery_voltage = 0.0;
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_inductor] = (circuit_supply_list){ 1, &p };
+    assert_true(isnan(circuit_shot_effective_frequency(&c)));
+    circuit_shot *s = run(&c);
+    assert_near(circuit_shot_result(s).peak_current, 0.0, 1e-6);
+    assert_true(isnan(circuit_shot_result(s).muzzle_velocity));
+    circuit_shot_free(s);
+}
+
+/* A current the other way round pushes as much, and its peak is as high. */
+static void current_of_either_sign(void **state)
+{
+    (void)state;
+    one_of_each all = samples();
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_profile] = (circuit_supply_list){ 1, &all.profile };
+    circuit_shot *s = run(&c);
+    const circuit_shot_summary plain = circuit_shot_result(s);
+    circuit_shot_free(s);
+    for (int k = 0; k < 9; k++) hump[k].current = -hump[k].current;
+    s = run(&c);
+    const circuit_shot_summary turned = circuit_shot_result(s);
+    circuit_shot_free(s);
+    for (int k = 0; k < 9; k++) hump[k].current = -hump[k].current;
+    assert_true(plain.peak_current > 1e5);
+    assert_near(turned.peak_current, plain.peak_current, 1e-6 * plain.peak_current);
+    assert_near(turned.muzzle_velocity, plain.muzzle_velocity, 1e-6 * plain.muzzle_velocity);
+}
+
 /* Lossless and of endless inertia, switched on at the electrical angle f: i = k/(p L) (cos f - cos a), zero again at
  * the angle 2 pi - f; it comes on again where its voltage turns positive, at 2 pi. */
 static void alternator_pulses(void **state)
@@ -723,6 +792,9 @@ int main(void)
         cmocka_unit_test(all_kinds_together),
         cmocka_unit_test(homopolar_is_a_capacitor),
         cmocka_unit_test(opening_switch),
+        cmocka_unit_test(arc_goes_on),
+        cmocka_unit_test(empty_store),
+        cmocka_unit_test(current_of_either_sign),
         cmocka_unit_test(alternator_pulses),
         cmocka_unit_test(profile_is_followed),
         cmocka_unit_test(profile_comes_back),

@@ -98,6 +98,12 @@ static void stored(const supply_group *g, const double *y, double *e)
     e[STORE_CABLE] += 0.5 * p->cable_inductance * y[0] * y[0];
 }
 
+/* Driven back to zero by the rails while the switch still opens: its arc goes on, fed by the store. */
+static bool stays(const supply_group *g)
+{
+    return g->stage == SWITCH_CLOSED;
+}
+
 static double voltage(const supply_group *g, const double *y)
 {
     (void)y;
@@ -112,6 +118,7 @@ const supply_kind circuit_kind_inductor = {
     .size = sizeof(circuit_supply_inductor),
     .charge = offsetof(circuit_supply_inductor, current),
     .unknowns = unknowns,
+    .stays = stays,
     .rise = rise,
     .start = start,
     .flow = flow,

@@ -69,14 +69,16 @@ struct supply_kind {
     size_t size;
     size_t charge; /* offset of the double that it is charged to; 0: a given current, which is not charged */
     bool source;   /* the power it gives is that at the rails */
-    status (*check)(const void *p, const char *where);            /* beyond the table's ranges; NULL: nothing */
-    status (*prepare)(supply_group *g);                           /* fills curve; NULL: nothing */
-    void (*release)(supply_group *g);                             /* frees curve; NULL with prepare */
-    int (*unknowns)(const void *p);                               /* 1 .. SUPPLY_UNKNOWNS */
-    bool (*reverses)(const void *p);                              /* its current may be negative; NULL: never */
-    int (*pulses)(const void *p);                                 /* NULL: one */
-    double (*rise)(const void *p);                                /* time to its peak, roughly [s] */
-    void (*start)(const void *p, double *y, supply_scale *scale); /* state at t = 0 */
+    status (*check)(const void *p, const char *where); /* beyond the table's ranges; NULL: nothing */
+    status (*prepare)(supply_group *g);                /* fills curve; NULL: nothing */
+    void (*release)(supply_group *g);                  /* frees curve; NULL with prepare */
+    int (*unknowns)(const void *p);                    /* 1 .. SUPPLY_UNKNOWNS */
+    bool (*reverses)(const void *p);                   /* its current may be negative; NULL: never */
+    int (*pulses)(const void *p);                      /* NULL: one */
+    bool (*stays)(
+        const supply_group *g);    /* its current is at zero, but what drives it goes on: it waits; NULL: never */
+    double (*rise)(const void *p); /* time to its peak, roughly [s] */
+    void (*start)(const void *p, double *y, supply_scale *scale);                   /* state at t = 0 */
     void (*flow)(const supply_group *g, double t, const double *y, supply_flow *f); /* f comes zeroed */
     bool (*algebraic)(const supply_group *g, int j);                                /* NULL: none */
     double (*scale)(const supply_group *g, int j);                     /* of y_j in this stage; NULL: that of `start` */

@@ -245,7 +245,8 @@ static status read_projectile(history *h, const char *scene, const strike_projec
 
 /* ---- the plate ---- */
 
-/* Columns of the last map without intact metal; the map covers the plate alone. */
+/* Columns of the last map without intact metal that had some at the start: the map is the plate's box, of which a disc
+ * does not fill the corners, nor a drilled plate its holes. */
 static status read_plate(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
                          strike_state *state, strike_outcome *out)
 {
@@ -259,7 +260,7 @@ static status read_plate(history *h, const char *scene, const strike_projectile 
     char path[100];
     snprintf(path, sizeof path, "probes/" STRIKE_PLATE_PROBE "/%s", mpm_axis_names[k]);
     TRY(output_history_read(h, scene, path, &x, dims));
-    for (size_t i = 0; i < dims[1]; i++) open += isnan(x[(dims[0] - 1) * dims[1] + i]);
+    for (size_t i = 0; i < dims[1]; i++) open += !isnan(x[i]) && isnan(x[(dims[0] - 1) * dims[1] + i]);
     free(x);
     mpm_probe own = *map;
     for (int q = 0; q < 3; q++)
@@ -268,6 +269,7 @@ static status read_plate(history *h, const char *scene, const strike_projectile 
     state->plate = true;
     state->hole = open * one;
     state->least_hole = LEAST_COLUMNS * one / p->parts;
+    out->open = state->hole >= state->least_hole;
     out->hole_diameter = sqrt(4.0 * state->hole / PI);
     return status_ok();
 }

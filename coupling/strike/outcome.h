@@ -10,7 +10,7 @@
  *               held, would slow it down
  *   unfinished  else, if it never met the target, if u > v0 / 50, or if its speed changed by more than v0 / 50 in the
  *               last tenth of the scene: a longer scene decides
- *   torn        else, with strike.plate: holes in the whole plate, of the area of four columns of its map (each two
+ *   torn        else, with strike.plate: new holes in the whole plate, of the area of four columns of its map (each two
  *               cells wide)
  *   bulged      else, with strike.plate
  *   rebound     else, u < -v0 / 50
@@ -75,6 +75,7 @@ typedef struct {
     double judged_time;           /* of which its velocity and class are: the scene's end, or earlier [s] */
     double left_share;            /* of the projectile: left through the window's ends [1] */
     double lost_mass;             /* of the projectile: left through the window's ends, or was eroded [kg] */
+    bool open;                    /* the plate has a hole that counts */
     bool gone;                    /* at the end nearly none of its intact metal is in the window */
 } strike_outcome;
 

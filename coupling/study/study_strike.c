@@ -183,6 +183,14 @@ static status arrive(session *s, const study_case *of, double wanted, strike_ans
     return status_ok();
 }
 
+static const double SETTLED = 0.01; /* of its velocity: it may lose so much in the last tenth of the scene */
+
+/* There is a plate, without a hole that counts. */
+static bool is_shut(const strike_outcome *o)
+{
+    return !isnan(o->hole_diameter) && !o->open;
+}
+
 static void warn(session *s, const strike_result *r)
 {
     const strike_outcome *o = &r->is;
@@ -195,6 +203,11 @@ static void warn(session *s, const strike_result *r)
                          "before, with %.3g g of intact metal in its way: a longer scene (strike.travel, "
                          "scene.end_time)",
                          o->residual_velocity, o->speed_change, 1e3 * o->ahead);
+    if (o->class == STRIKE_PIERCED && (o->speed_change > SETTLED * o->residual_velocity || is_shut(o)))
+        run_session_warn(s,
+                         "pierced, but %s: what is behind the plate, and how fast, is not yet all that will be; a "
+                         "longer scene (strike.travel, scene.end_time)",
+                         is_shut(o) ? "the plate has no hole that counts" : "the projectile still loses speed");
     if (o->left_share > 0.0 && o->judged_time < r->scene.end_time)
         run_session_warn(s,
                          "%.0f %% of the projectile left the window before the scene's end: judged %.4g us after the "

@@ -283,7 +283,7 @@ status vessel_possible(const vessel_how *how)
           "vessel.film_thickness = %g mm: must be less than vessel.radius = %g mm, or there is nothing inside",
           1e3 * c->film_thickness, 1e3 * c->radius);
     CHECK(isnan(c->critical_temperature) == isnan(c->critical_pressure), STATUS_BAD_INPUT,
-          "vessel: critical_temperature and critical_pressure go together; without both the gas is ideal");
+          "vessel.critical_temperature and vessel.critical_pressure go together; without both the gas is ideal");
     CHECK(c->bubbles.n >= 1 && c->bubbles.n <= VESSEL_MAX_BUBBLES, STATUS_BAD_INPUT,
           "vessel.bubbles: %d of them, must be 1 .. %d", c->bubbles.n, VESSEL_MAX_BUBBLES);
     CHECK(mpm_material_shear(how->film) != MPM_SHEAR_NONE, STATUS_BAD_INPUT,
