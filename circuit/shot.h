@@ -28,6 +28,7 @@ typedef enum {
     CIRCUIT_SHOT_RAILS_SKIN,
     CIRCUIT_SHOT_RAILS_DIFFUSING
 } circuit_shot_rail_level;
+extern const char *const circuit_shot_rail_level_names[]; /* "constant", .., NULL */
 
 /* Equal rails (circuit/rails/section.h).  constant: the gradients are given; skin: those of the section at one
  * frequency; diffusing: every slice of rail has its own history since the armature exposed it (circuit/rails/rails.h).

@@ -4,14 +4,14 @@
 #include "circuit/rails/inductance.h"
 #include "circuit/shot_model.h"
 
-static const char *const level_names[] = { "constant", "skin", "diffusing", NULL };
+const char *const circuit_shot_rail_level_names[] = { "constant", "skin", "diffusing", NULL };
 
 #define RAILS(member, unit, fallback, min, max, doc) \
     PARAM_DOUBLE(circuit_shot_rails, member, unit, fallback, min, max, doc)
 
 const base_param circuit_shot_rails_params[] = {
     PARAM_ENUM(
-        circuit_shot_rails, level, level_names, CIRCUIT_SHOT_RAILS_DIFFUSING,
+        circuit_shot_rails, level, circuit_shot_rail_level_names, CIRCUIT_SHOT_RAILS_DIFFUSING,
         "constant: gradients as given; skin: of the cross-section at one frequency; diffusing: of every slice by its "
         "own history"),
     RAILS(height, "m", REQUIRED, 1e-4, 10.0, "height of a rail, across the bore"),

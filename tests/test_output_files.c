@@ -520,6 +520,19 @@ static void table_is_aligned(void **state)
     assert_string_equal(text, "site  v [m/s]  class\na        1500  gouge\nb \xc2\xb5m        -  none\n");
     free(text);
     host_table_free(t);
+    /* more columns stand again below where that is asked for */
+    OK(host_table_create(
+        "charge|mass|a column of thirty characters|another that has that many too|and a third of some length|"
+        "the last",
+        &t));
+    OK(host_table_row(t, "1|2|3|4|5|6"));
+    host_table_keep(t, 2);
+    out = open_memstream(&text, &bytes);
+    host_table_print(t, out);
+    fclose(out);
+    assert_non_null(strstr(text, "\n\ncharge  mass  "));
+    free(text);
+    host_table_free(t);
     /* wider than a hundred columns: the rest below, with the first column */
     OK(host_table_create("name|a column of thirty characters|another that has that many too|and a third of some length|"
                          "the last",

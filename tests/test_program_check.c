@@ -81,6 +81,24 @@ static void test_senseless(void **state)
     assert_false(contains("out.txt", "warning: study.max_scenes"));
 }
 
+/* What this command does not read is no error of it; what has no effect on it is a warning. */
+static void test_read_by_others(void **state)
+{
+    (void)state;
+#define FAST SHOT " --set armature.velocity='2.5 km/s' -o fast --force --quiet"
+    assert_int_equal(run("shot " FAST), 0);
+    assert_int_equal(run("onset " FAST), 2);
+    assert_true(contains("err.txt", "armature.velocity = 2.5 km/s: the search would end below it: raise "));
+#undef FAST
+#define GRADIENT " --set rail.resistance_gradient='0.2 mohm/m'"
+    assert_int_equal(run("check " SHOT GRADIENT), 0);
+    assert_true(contains("out.txt", "rail.resistance_gradient has no effect with rail.level = diffusing"));
+    assert_int_equal(run("check " SHOT " --set rail.level=constant --set rail.inductance_gradient='0.5 uH/m'" GRADIENT),
+                     0);
+    assert_false(contains("out.txt", "no effect"));
+#undef GRADIENT
+}
+
 static void test_check(void **state)
 {
     (void)state;
@@ -191,6 +209,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_senseless),
+        cmocka_unit_test(test_read_by_others),
         cmocka_unit_test(test_check),
         cmocka_unit_test(test_check_says_what_a_study_takes),
         cmocka_unit_test(test_check_refuses_what_fits_nowhere),

@@ -136,9 +136,28 @@ static void test_empty(void **state)
 #undef BOX
 }
 
+/* A ball that the window halves without a mirror; held by one, or at rest, it is no fault. */
+static void test_cut(void **state)
+{
+    (void)state;
+    const char *says = "warning: body ball reaches 2 mm beyond scene.window.z.lo, a free end";
+#define HALF(ends) "  cell: 1 mm\n  window: {z: {lo: 0 mm, hi: 5 mm}}\n" ends
+    assert_warned(HALF(""), says, true);
+    assert_warned(HALF("  boundary: {z: [symmetry, free]}\n"), "a free end", false);
+    write_scene(HALF(""));
+    assert_int_equal(run("check w --set 'scene.bodies[1].velocity=0 0 0 m/s'"), 0);
+    assert_false(contains("out.txt", "a free end"));
+#undef HALF
+}
+
 static void test_probes(void **state)
 {
     (void)state;
+    write_scene("  cell: 1 mm\n  probes: [{name: push, force_on: ball}]\n");
+    assert_int_equal(run("check w"), 0);
+    assert_false(contains("out.txt", "probe push"));
+    assert_int_equal(run("check w --set 'scene.bodies[0].group=t' --set 'scene.bodies[1].group=t'"), 0);
+    assert_true(contains("out.txt", "warning: probe push: the force is that on the whole group of ball: with plate"));
     assert_refused_at("  cell: 1 mm\n  probes:\n    - {name: a, force: ball}\n"
                       "    - {name: g, pressure: {at: 200 0 0 mm}}\n",
                       "8:32", "scene.probes[1].pressure.at: g lies at x = ");
@@ -159,8 +178,8 @@ static void test_probes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_windows), cmocka_unit_test(test_cells), cmocka_unit_test(test_few_cells),
-        cmocka_unit_test(test_probes),  cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_windows), cmocka_unit_test(test_cells),  cmocka_unit_test(test_few_cells),
+        cmocka_unit_test(test_cut),     cmocka_unit_test(test_probes), cmocka_unit_test(test_empty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -204,6 +204,9 @@ static void test_refused(void **state)
         refuses(arguments, wrong[i].says);
     }
     refuses("sweep " SHOT_CASE " -o nothing", "section `sweep` is missing");
+    for (int k = 0; k < STUDIES; k++) /* what is read unless told is there */
+        for (const char *const *u = study_list[k]->usual; u && *u; u++)
+            assert_true(output_number_exists(study_list[k]->keys, *u));
 }
 
 /* The place of an error is the value in the sweep's own file, not the key in the case that it builds on; and a run that

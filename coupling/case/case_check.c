@@ -399,6 +399,25 @@ static void check_name(case_reader *r)
         case_errors_add(r->errors, node, "name = %.*s: must have a letter or a digit", CASE_SHOWN, r->out->name);
 }
 
+/* Measured gradients, or a frequency, beside a level that computes its own: a reader would take them for used. */
+static void check_level(case_reader *r)
+{
+    static const struct {
+        const char *key;
+        circuit_shot_rail_level level;
+    } of[] = { { "inductance_gradient", CIRCUIT_SHOT_RAILS_CONSTANT },
+               { "resistance_gradient", CIRCUIT_SHOT_RAILS_CONSTANT },
+               { "frequency", CIRCUIT_SHOT_RAILS_SKIN } };
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        const tree_node *map = host_tree_find(r->root, "rail");
+        char text[200];
+        if (!r->out->given.rails || !has_value(map, of[k].key) || r->out->rails.level == (int)of[k].level) continue;
+        snprintf(text, sizeof text, "rail.%s has no effect with rail.level = %s: it is of level %s", of[k].key,
+                 circuit_shot_rail_level_names[r->out->rails.level], circuit_shot_rail_level_names[of[k].level]);
+        case_warn_at(r, host_tree_find(map, of[k].key), text);
+    }
+}
+
 void case_check_whole(case_reader *r)
 {
     const tree_node *sites = host_tree_find(r->root, "sites");
@@ -410,6 +429,7 @@ void case_check_whole(case_reader *r)
         need_key(r, "particle", "radius", "m");
     }
     check_lengths(r);
+    check_level(r);
     check_courant(r);
     check_shape(r, host_tree_find(r->root, "particle"), r->out->particle.shape, "particle");
     for (int k = 0; k < r->out->sites.n; k++) {

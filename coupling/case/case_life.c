@@ -78,18 +78,6 @@ static void check_armature(case_reader *r, const tree_node *map)
                             map->key[k]->text);
 }
 
-/* A warning, with the place of this value in front. */
-static void warn_at(case_reader *r, const tree_node *node, const char *text)
-{
-    char place[CASE_PATH_SIZE + 40], line[CASE_PATH_SIZE + 440];
-    if (node->set >= 0)
-        snprintf(place, sizeof place, CASE_SET_PLACE, r->errors->sets[node->set]);
-    else
-        snprintf(place, sizeof place, "%s:%d:%d: ", r->file[node->file], node->line, node->column);
-    snprintf(line, sizeof line, "%s%s", place, text);
-    case_warn(r, line);
-}
-
 /* A key of friction that this state of the contact does not read has its value of no effect, in used.yaml too; another
  * one that the case gives is a warning. */
 static void settle(case_reader *r, const char *key, double *value, double idle)
@@ -98,7 +86,7 @@ static void settle(case_reader *r, const char *key, double *value, double idle)
     const char *state = r->out->life.state == LIFE_FRICTIONLESS ? "frictionless" : "full_slip";
     char text[200];
     snprintf(text, sizeof text, "life.%s = %g has no effect with life.state = %s", key, *value, state);
-    if (node && *value != idle) warn_at(r, node, text);
+    if (node && *value != idle) case_warn_at(r, node, text);
     *value = idle;
 }
 
@@ -136,7 +124,7 @@ static void warn_of_pressure(case_reader *r, const tree_node *map)
              "life.%s: %.3g GPa at the middle of the patch is more than %.60s carries, %.3g GPa (%s): its face would "
              "flow away, and the life has no meaning; is the unit right?",
              key, 1e-9 * peak, m->name, 1e-9 * most, by);
-    warn_at(r, node, text);
+    case_warn_at(r, node, text);
 }
 
 void case_life_check(case_reader *r)

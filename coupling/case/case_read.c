@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/case/case_bodies.h"
+#include "coupling/case/case_place.h"
 #include "coupling/case/case_reader.h"
 
 #include <math.h>
@@ -599,4 +600,15 @@ void case_warn(case_reader *r, const char *line)
     }
     snprintf(all + old, more + 2, "%s\n", line);
     r->out->warnings = all;
+}
+
+void case_warn_at(case_reader *r, const tree_node *node, const char *text)
+{
+    char place[CASE_PATH_SIZE + 40], line[CASE_PATH_SIZE + 440];
+    if (node->set >= 0)
+        snprintf(place, sizeof place, CASE_SET_PLACE, r->errors->sets[node->set]);
+    else
+        snprintf(place, sizeof place, "%s:%d:%d: ", r->file[node->file], node->line, node->column);
+    snprintf(line, sizeof line, "%s%s", place, text);
+    case_warn(r, line);
 }

@@ -47,6 +47,7 @@ void case_old_keys_of_bodies(case_reader *r, tree_node *root);
 
 /* A line for the user. */
 void case_warn(case_reader *r, const char *line);
+void case_warn_at(case_reader *r, const tree_node *node, const char *text); /* with the place of this value in front */
 
 /* The case file that a path means: itself, or case.yaml in the folder. */
 status case_file_of(const char *path, char file[CASE_PATH_SIZE]);

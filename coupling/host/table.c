@@ -14,7 +14,7 @@ typedef struct {
 } row;
 
 struct table {
-    int columns;
+    int columns, kept; /* kept: the first ones, in every part */
     size_t rows, room;
     row *row; /* the titles come first */
 };
@@ -84,7 +84,7 @@ status host_table_create(const char *titles, table **out)
           titles);
     table *t = calloc(1, sizeof *t);
     CHECK(t, STATUS_MEMORY, "no memory for a table");
-    t->columns = columns;
+    t->columns = columns, t->kept = 1;
     const status s = add(t, &r);
     if (s.code != STATUS_OK) {
         host_table_free(t);
@@ -152,11 +152,25 @@ static void print_cell(const table *t, const layout *l, size_t i, int c, bool la
     if (!l->right[c] && !last) fprintf(out, "%*s", pad, "");
 }
 
-/* The first column, and those from one to before another. */
+void host_table_keep(table *t, int columns)
+{
+    t->kept = columns;
+}
+
+/* As many of the kept columns as leave half of the width to others, the first one at least. */
+static int columns_again(const table *t, const layout *l)
+{
+    int n = 1, wide = l->width[0];
+    while (n < t->kept && n < t->columns && wide + 2 + l->width[n] <= MAX_WIDTH / 2) wide += 2 + l->width[n++];
+    return n;
+}
+
+/* The kept columns, and those from one to before another. */
 static void print_part(const table *t, const layout *l, int from, int to, FILE *out)
 {
+    const int again = from > 0 ? columns_again(t, l) : 0;
     for (size_t i = 0; i < t->rows; i++) {
-        if (from > 0) print_cell(t, l, i, 0, false, out);
+        for (int c = 0; c < again; c++) print_cell(t, l, i, c, false, out);
         for (int c = from; c < to; c++) print_cell(t, l, i, c, c == to - 1, out);
         fputc('\n', out);
     }
@@ -173,7 +187,8 @@ void host_table_print(const table *t, FILE *out)
         }
     }
     for (int from = 0, to; from < t->columns; from = to) {
-        int wide = from > 0 ? l.width[0] : 0;
+        int wide = 0;
+        for (int c = 0; from > 0 && c < columns_again(t, &l); c++) wide += (c > 0 ? 2 : 0) + l.width[c];
         for (to = from; to < t->columns && (to == from || wide + 2 + l.width[to] <= MAX_WIDTH); to++)
             wide += (to > 0 ? 2 : 0) + l.width[to];
         if (from > 0) fputc('\n', out);

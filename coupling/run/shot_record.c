@@ -27,7 +27,7 @@ const summary_key run_shot_keys[] = {
     SUMMARY_NUMBER(shot_record, "leg_action", limits.leg_action, "1",
                    "action over that which melts the leg; null: armature.leg_area is not given"),
     SUMMARY_NUMBER(shot_record, "throat_action", limits.throat_action, "1",
-                   "the throat alike; null: armature.throat_area is not given"),
+                   "action over that which melts the throat; null: armature.throat_area is not given"),
     SUMMARY_NUMBER(shot_record, "wear_share", limits.wear_share, "1",
                    "thickness worn off over armature.wear_thickness; null: not given"),
     SUMMARY_NUMBER(shot_record, "transition_position", limits.transition_position, "m",

@@ -4,6 +4,9 @@
 #include "coupling/scene/probe_place.h"
 #include "mpm/grid/grid.h"
 
+#include <math.h>
+#include <stdio.h>
+
 static const double ROUND = 1e-6;         /* of a cell: what lengths may be off by */
 static const double MOST_CELLS = 20000.0; /* along an axis, as mpm/grid/axis.c has it */
 
@@ -90,6 +93,32 @@ status scene_window_check(const mpm_scene *s)
     for (int k = 0; k < 3; k++) TRY(check_levels(s, k));
     for (int i = 0; i < s->probes; i++) TRY(scene_probe_place_check(s, i));
     return status_ok();
+}
+
+static bool moves(const mpm_body *b)
+{
+    bool any = false;
+    for (int k = 0; k < 3; k++) any = any || b->velocity[k] != 0.0 || b->spin[k] != 0.0;
+    return any && !b->held;
+}
+
+bool scene_window_cuts(const mpm_scene *s, int body, char text[400])
+{
+    double lo[3], hi[3];
+    const mpm_body *b = &s->body[body];
+    mpm_solid_bounds(&s->solid[b->solid], lo, hi);
+    for (int k = 0; moves(b) && k < 3; k++)
+        for (int end = 0; end < 2; end++) {
+            const mpm_axis *a = &s->axis[k];
+            const double beyond = end ? hi[k] - a->hi : a->lo - lo[k];
+            if (a->boundary[end] != MPM_BOUNDARY_FREE || !(beyond > ROUND * (hi[k] - lo[k]))) continue;
+            snprintf(text, 400,
+                     "body %.60s reaches %.3g mm beyond scene.window.%s.%s, a free end: what lies there is cut off; a "
+                     "mirror needs scene.boundary.%s = symmetry",
+                     b->name, 1e3 * beyond, mpm_axis_names[k], end ? "hi" : "lo", mpm_axis_names[k]);
+            return true;
+        }
+    return false;
 }
 
 void scene_window_limit_shift(mpm_scene *s, const double own[3])

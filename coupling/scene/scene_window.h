@@ -10,6 +10,9 @@
  * zone beside the window, levels that do not fit, a body or a probe beside the window.  s: filled (scene_fill). */
 status scene_window_check(const mpm_scene *s);
 
+/* Does the window cut a body that moves, at an end where nothing stands for the rest of it?  Then `text` says so. */
+bool scene_window_cuts(const mpm_scene *s, int body, char text[400]);
+
 /* Along an axis of too few cells for its shift, as in plane strain, the grid of a filled scene has its own one. */
 void scene_window_limit_shift(mpm_scene *s, const double own[3]);
 

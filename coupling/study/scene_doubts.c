@@ -4,8 +4,10 @@
 #include "coupling/gouge/impact_scene.h"
 #include "coupling/scene/few_cells.h"
 #include "coupling/scene/probe_place.h"
+#include "coupling/scene/scene_window.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef void doubt_sink(void *user, const char *text);
 
@@ -56,6 +58,20 @@ static void doubt_layers(const case_inputs *in, doubt_sink *say, void *user)
     }
 }
 
+/* A force on one body is that on all that are welded to it. */
+static bool reads_others(const mpm_scene *s, int probe, char text[400])
+{
+    const mpm_probe *p = &s->probe[probe];
+    if (strcmp(p->kind->name, "force") != 0) return false;
+    int n = snprintf(text, 400, "probe %.60s: the force is that on the whole group of %.60s:", p->name,
+                     s->body[p->body].name);
+    const int alone = n;
+    for (int i = 0; i < s->bodies && n < 300; i++)
+        if (i != p->body && s->body[i].group == s->body[p->body].group)
+            n += snprintf(text + n, (size_t)(400 - n), "%s %.60s", n > alone ? "," : " with", s->body[i].name);
+    return n > alone;
+}
+
 static void doubt(const case_inputs *in, doubt_sink *say, void *user)
 {
     char text[400];
@@ -68,8 +84,10 @@ static void doubt(const case_inputs *in, doubt_sink *say, void *user)
     }
     for (int i = 0; i < s->bodies; i++)
         if (scene_few_cells(s, i, text)) say(user, text);
+    for (int i = 0; i < s->bodies; i++)
+        if (scene_window_cuts(s, i, text)) say(user, text);
     for (int i = 0; i < s->probes; i++)
-        if (scene_probe_is_empty(s, i, text)) say(user, text);
+        if (scene_probe_is_empty(s, i, text) || reads_others(s, i, text)) say(user, text);
 }
 
 static void print_doubt(void *out, const char *text)

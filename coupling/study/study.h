@@ -35,10 +35,12 @@ typedef struct study {
     bool (*takes)(const case_inputs *in);
     unsigned needs;          /* of the case, sum of CASE_FOR_... */
     const summary_key *keys; /* of its result */
-    bool many_scenes;        /* it may compute several side by side */
-    bool shows_shot;         /* its summary has the shot too, under "shot" */
-    bool can_vary;           /* runs any case, not the session's alone: `breech sweep` may call it */
-    report_part report;      /* of report.html */
+    const char *const
+        *usual;         /* of the keys, what a sweep reads unless told, NULL at the end; NULL: the first numbers */
+    bool many_scenes;   /* it may compute several side by side */
+    bool shows_shot;    /* its summary has the shot too, under "shot" */
+    bool can_vary;      /* runs any case, not the session's alone: `breech sweep` may call it */
+    report_part report; /* of report.html */
     void (*print)(const void *result, FILE *out); /* its closing table; NULL: its keys */
     /* STATUS_BAD_INPUT before anything is written: what reading the case cannot tell.  NULL: nothing. */
     status (*possible)(const study_case *of);

@@ -321,6 +321,10 @@ static void print(const void *result, FILE *out)
     study_bodies.print(&r->scene, out);
 }
 
+static const char *const usual[] = {
+    "impact_velocity", "residual_velocity", "energy_share", "peak_force", "deflection", "hole_diameter", NULL
+};
+
 const study study_strike = {
     .name = "strike",
     .doc = "what the launched projectile does to its target",
@@ -330,6 +334,7 @@ const study study_strike = {
     .many_scenes = true,
     .keys = result_keys,
     .shows_shot = true,
+    .usual = usual,
     .can_vary = true,
     .report = { report_strike_head, report_strike_section },
     .print = print,

@@ -266,11 +266,13 @@ static void answer_free(void *owned)
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) free(all[k]);
 }
 
-/* What `read` names; else the first numbers of the study. */
+/* What `read` names; else what is usual for the study, its first numbers where it names none. */
 static void choose_outputs(const case_sweep *w, sweep_answer *a)
 {
     for (int k = 0; k < w->read.n; k++) a->output[a->outputs++] = w->read.item[k].value;
-    for (int k = 0; w->read.n == 0 && k < USUAL_OUTPUTS && output_name(a->of->keys, k); k++)
+    if (w->read.n > 0) return;
+    for (int k = 0; a->of->usual && a->of->usual[k]; k++) a->output[a->outputs++] = a->of->usual[k];
+    for (int k = 0; !a->of->usual && k < USUAL_OUTPUTS && output_name(a->of->keys, k); k++)
         a->output[a->outputs++] = output_name(a->of->keys, k);
 }
 
@@ -576,6 +578,7 @@ static status fill_table(const sweep_result *r, bool errors, table **t)
                                                                : &r->units[k]);
     strcpy(end, "time [s]");
     TRY(host_table_create(row, t));
+    if (r->n_runs > 0) host_table_keep(*t, r->run[0].n_inputs);
     for (int i = 0; i < r->n_runs; i++) {
         const sweep_run *run = &r->run[i];
         char time[24];

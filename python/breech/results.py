@@ -200,7 +200,9 @@ def describe(directory):
         return
     for name in run.scenes:
         crater = run.crater(name)
-        shape = f"{crater.texts['class']}, depth {1e3 * np.max(crater.depth):.3f} mm" if crater else "until its second gauge"
+        bodies = run.bodies(name)
+        shape = (f"{crater.texts['class']}, depth {1e3 * np.max(crater.depth):.3f} mm" if crater
+                 else f"bodies {', '.join(bodies)}" if bodies else "until its second gauge")
         print(f"scene {name}: {shape}, "
               f"{len(run.scene(name)['time'])} rows, {sum(1 for _ in run.snapshots(name))} snapshots")
 
