@@ -246,7 +246,19 @@ static void test_rises_with_size(void **state)
     assert_true(said == 5);
 }
 
-/* An undecided scene ends no size's interval, its own or another's: each known end lies outside of the doubt. */
+/* Has the search a decided scene that bounds this size from below, or above?  The reference has its own alone. */
+static bool is_bounded(const surface_result *r, double radius, bool is_reference, bool above)
+{
+    for (int i = 0; i < r->samples; i++) {
+        const surface_sample *a = &r->sample[i];
+        const bool bounds = is_reference ? a->radius == radius : above ? a->radius <= radius : a->radius >= radius;
+        if (bounds && a->is.class == (above ? DAMAGE_GOUGE : DAMAGE_SCRATCH)) return true;
+    }
+    return false;
+}
+
+/* An undecided scene ends no size's interval, its own or another's: each end lies outside of the doubt, where a scene
+ * bounds it that decides. */
 static void test_undecided(void **state)
 {
     (void)state;
@@ -261,8 +273,8 @@ static void test_undecided(void **state)
         for (int k = 0; k < r.sizes; k++) {
             const surface_size *s = &r.size[k];
             const double v = truth(&g, s->radius), doubt = 150.0 * g.doubt - 1e-9;
-            if (!isnan(s->interval[0])) assert_true(s->interval[0] <= v - doubt);
-            if (!isnan(s->interval[1])) assert_true(s->interval[1] >= v + doubt);
+            if (is_bounded(&r, s->radius, k == p.reference, false)) assert_true(!(s->interval[0] > v - doubt));
+            if (is_bounded(&r, s->radius, k == p.reference, true)) assert_true(!(s->interval[1] < v + doubt));
             inferred += k != p.reference && !isnan(s->interval[0]) && !isnan(s->interval[1]);
         }
     }

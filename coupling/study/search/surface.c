@@ -254,7 +254,7 @@ static int bounding(const surface_search *s, double radius, const surface_sample
 }
 
 /* From the end of a size's band to where its own scenes decide; where none of them does, or another size's stands
- * there, to the next one that decides of any size that bounds it; NaN: none does.  Growth of several sizes lies on no
+ * there, to the next one that decides of any size that bounds it; where none does, to the furthest of them.  Growth of several sizes lies on no
  * line, so the scatter tells nothing between them. */
 static double decided_end(const surface_search *s, double radius, const surface_sample *end)
 {
@@ -265,7 +265,9 @@ static double decided_end(const surface_search *s, double radius, const surface_
         decided = study_threshold_decided_end(&alone, list, bounding(s, radius, end, true, list), &end->is);
     if (!isnan(decided)) return decided;
     alone.scatter = 0.0;
-    return study_threshold_decided_end(&alone, list, bounding(s, radius, end, false, list), &end->is);
+    const int n = bounding(s, radius, end, false, list);
+    decided = study_threshold_decided_end(&alone, list, n, &end->is);
+    return isnan(decided) ? study_threshold_furthest_end(list, n, &end->is) : decided;
 }
 
 static surface_size answer_of(surface_search *s, int k)
@@ -282,8 +284,8 @@ static surface_size answer_of(surface_search *s, int k)
         a.velocity = crossing(&b);
         if (b.low >= b.high) {
             r->monotone = false; /* its own scenes turn back */
-            if (b.high - allowance[0] < a.interval[0]) a.interval[0] = b.high - allowance[0];
-            if (b.low + allowance[1] > a.interval[1]) a.interval[1] = b.low + allowance[1];
+            a.interval[0] = fmin(a.interval[0], b.high - allowance[0]);
+            a.interval[1] = fmax(a.interval[1], b.low + allowance[1]);
         }
     }
     if (k == p->reference) {

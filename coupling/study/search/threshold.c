@@ -238,6 +238,13 @@ double study_threshold_decided_end(const threshold_plan *p, const threshold_samp
     return decided != end && scatter != 0.0 ? crossing(decided, undecided, scatter) : decided->velocity;
 }
 
+double study_threshold_furthest_end(const threshold_sample *list, int n, const threshold_sample *end)
+{
+    const threshold_sample *furthest = end;
+    for (; end; end = further_out(list, n, end)) furthest = end;
+    return furthest->velocity;
+}
+
 static double decided_end(const threshold_search *s, const threshold_sample *end)
 {
     return study_threshold_decided_end(s->plan, s->result.sample, s->result.samples, end);
@@ -272,8 +279,8 @@ static void check_monotone(threshold_result *r, double cells)
          "gouging turns back (%g cells a radius): above its limit at %g m/s, below it at %g m/s; the interval spans "
          "both (is it the place of the grid? study.threshold_ensemble: 5 tells its scatter, more cells lessen it)",
          cells, lowest_upper, highest_lower);
-    if (lowest_upper < r->interval[0]) r->interval[0] = lowest_upper; /* not known: so it stays */
-    if (highest_lower > r->interval[1]) r->interval[1] = highest_lower;
+    r->interval[0] = fmin(r->interval[0], lowest_upper);
+    r->interval[1] = fmax(r->interval[1], highest_lower);
 }
 
 /* The interval of a threshold near v reaches further by what finer cells may change, by `least` at least. */
@@ -311,12 +318,14 @@ static void conclude(threshold_search *s, const threshold_bracket *b)
     r->velocity = root(b);
     r->bracket[0] = b->lo.velocity;
     r->bracket[1] = b->hi.velocity;
-    r->interval[0] = decided_end(s, &b->lo);
-    r->interval[1] = decided_end(s, &b->hi);
-    for (int side = 0; side < 2; side++)
-        if (isnan(r->interval[side]))
-            warn(r, "no scene %s %g m/s decides: that end of the interval is not known", side ? "from" : "up to",
-                 r->bracket[side]);
+    for (int side = 0; side < 2; side++) {
+        const threshold_sample *end = side ? &b->hi : &b->lo;
+        r->interval[side] = decided_end(s, end);
+        if (!isnan(r->interval[side])) continue;
+        r->interval[side] = study_threshold_furthest_end(r->sample, r->samples, end);
+        warn(r, "no scene %s %g m/s decides: the interval ends at the %s that was computed", side ? "from" : "up to",
+             r->bracket[side], side ? "fastest" : "slowest");
+    }
     check_monotone(r, s->plan->coarse);
     if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
     allow(r, s->plan, r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));

@@ -17,7 +17,8 @@
  *      second search from the same range has one scene less to compute.  If scenes run out before both sides are
  *      known, the answer is the coarse root, moved as far as the fine scenes on one side require.
  *   3. Interval: the fine bracket, between decided scenes.  An `undecided` scene counts on the side of its excess but
- *      does not end the interval; that ends at the next decided scene, or where the line to it leaves the scatter.
+ *      does not end the interval; that ends at the next decided scene, or where the line to it leaves the scatter; with
+ *      a warning at the furthest scene of its side, if none of them decides.
  *      The interval is widened by what the resolution may change: the shift of the root from coarse to fine, or the
  *      plan's fraction of the threshold if that is more, upwards by a fraction of its own.  For a threshold outside of
  *      the range, it is that fraction of the end where it was looked for.
@@ -144,6 +145,9 @@ status study_threshold_conclude(const threshold_plan *plan, const threshold_samp
  * [m/s]. */
 double study_threshold_decided_end(const threshold_plan *plan, const threshold_sample *list, int n,
                                    const threshold_sample *end);
+
+/* The furthest out of its side and cells, decided or not [m/s]. */
+double study_threshold_furthest_end(const threshold_sample *list, int n, const threshold_sample *end);
 
 /* Does a sample speak for a gouge?  An undecided one by its excess. */
 bool study_threshold_is_upper(const threshold_sample *s);
