@@ -381,7 +381,7 @@ status output_history_map(history *h, const char *scene, const history_map *map)
     COLUMN(contact_force_x, "N", "on the rail, or the first body, and what is welded to it; as computed", force[0]) \
     COLUMN(contact_force_y, "N", "on the rail, or the first body, and what is welded to it; as computed", force[1]) \
     COLUMN(contact_force_z, "N", "on the rail, or the first body, and what is welded to it; as computed", force[2]) \
-    COLUMN(peak_pressure, "Pa", "of any point so far: max_pressure of the summary, not its peak_pressure", r->peak_pressure)                             \
+    COLUMN(peak_pressure, "Pa", "of any point so far: the summary's max_pressure", r->peak_pressure) \
     COLUMN(peak_temperature, "K", "of any point so far", r->peak_temperature)                        \
     COLUMN(failed_volume, "m^3", "of all bodies now, as computed", r->failed_volume)                    \
     COLUMN(clamps_pressure, "1", "so far", (double)r->clamps_pressure)                                  \

@@ -254,8 +254,8 @@ static int bounding(const surface_search *s, double radius, const surface_sample
 }
 
 /* From the end of a size's band to where its own scenes decide; where none of them does, or another size's stands
- * there, to the next one that decides of any size that bounds it; where none does, to the furthest of them.  Growth of several sizes lies on no
- * line, so the scatter tells nothing between them. */
+ * there, to the next one that decides of any size that bounds it; where none does, to the furthest of them.  Growth of
+ * several sizes lies on no line, so the scatter tells nothing between them. */
 static double decided_end(const surface_search *s, double radius, const surface_sample *end)
 {
     threshold_sample list[THRESHOLD_MAX_SAMPLES];
