@@ -156,6 +156,13 @@ static void warn_of_damaged(session *s, const char *what)
     if (!s->warnings || !strstr(s->warnings, what)) run_session_warn(s, "%s; computed anew", what);
 }
 
+static const scene_record *record_of(const session *s, uint64_t key)
+{
+    for (int i = 0; i < s->n_records; i++)
+        if (s->record[i]->key == key) return s->record[i];
+    return NULL;
+}
+
 /* A file that cannot be used is none: its scene is computed and replaces it. */
 static status take_stored(session *s, const scene_query *q, const scene_key *key)
 {
@@ -164,15 +171,9 @@ static status take_stored(session *s, const scene_query *q, const scene_key *key
     status taken = run_store_get(s->store, key, &file);
     if (file) taken = take_file(s, q, key, file, true);
     host_h5_close(file);
-    if (taken.code == STATUS_IO) warn_of_damaged(s, taken.text);
-    return taken.code == STATUS_IO ? status_ok() : taken;
-}
-
-static const scene_record *record_of(const session *s, uint64_t key)
-{
-    for (int i = 0; i < s->n_records; i++)
-        if (s->record[i]->key == key) return s->record[i];
-    return NULL;
+    if (taken.code != STATUS_IO || record_of(s, key->hash)) return taken; /* taken: it is the checkpoint's */
+    warn_of_damaged(s, taken.text);
+    return status_ok();
 }
 
 /* ---- asking ---- */
