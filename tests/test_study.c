@@ -443,6 +443,12 @@ static void test_scatter(void **state)
         }
     }
     assert_true(inside > 10 && open > 0);
+    static const threshold_sample known[] = { { 1000.0, 3.0, -0.1, DAMAGE_UNDECIDED },
+                                              { 1100.0, 3.0, -0.1, DAMAGE_UNDECIDED },
+                                              { 1150.0, 3.0, 1.0, DAMAGE_GOUGE } };
+    threshold_search s; /* of several that do not decide the furthest */
+    OK(study_threshold_conclude(&plan, known, 3, &s));
+    assert_true(s.result.bracket[0] == 1100.0 && s.result.interval[0] == 1000.0 - s.result.allowance[0]);
 }
 
 /* Where one side alone was seen, the interval begins at a decided scene too, or has no end. */

@@ -294,7 +294,8 @@ static void test_refused(void **state)
     refused("--set vessel.film_thickness='1 mm'", "or there is nothing inside"); /* squares and cubes have no sign */
     refused("--set vessel.film_material=water", "vessel.film_material");
     refused("--set vessel.film_material=rail_steel_ma2020", "damage_D1");
-    refused("--set vessel.critical_pressure=none", ": vessel.critical_temperature and vessel.critical_pressure go together");
+    refused("--set vessel.critical_pressure=none",
+            ": vessel.critical_temperature and vessel.critical_pressure go together");
     refused("--set vessel.bubbles=[]", "vessel.bubbles");
     refused("--set vessel.growth=none", "vessel.growth");
 }
