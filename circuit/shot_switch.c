@@ -100,8 +100,8 @@ static void groups_fire(circuit_shot *s)
 }
 
 /* Ends of stages and of currents that are due now, whether a root was reported for them or for a twin at the same
- * instant. */
-static void groups_settle(circuit_shot *s, const int *found)
+ * instant.  idle, NULL: not asked for, is set for those that came to their next stage without current. */
+static void groups_settle(circuit_shot *s, const int *found, bool *idle)
 {
     for (int k = 0; k < s->model.n; k++) {
         const int *root = found ? found + ROOT_GROUPS + 2 * k : NULL;
@@ -114,22 +114,26 @@ static void groups_settle(circuit_shot *s, const int *found)
         const bool over = circuit_supply_stage_root(g, s->t, y) <= 1e-12;
         if (!(root && root[0]) && !over) continue;
         switched(s, g->kind->next(g, y), k);
-        s->forced[s->model.n + k] = y[0] <= 1e-12 * s->scale[g->first];
+        if (idle) idle[k] = y[0] <= 1e-12 * s->scale[g->first];
     }
 }
 
-/* Groups that came to their next stage without current conduct only if that would be positive: the switch of an empty
- * coil opens at once. */
-static void groups_begin(circuit_shot *s)
+/* What follows a firing at the same instant.  A group that comes to its next stage there without current, as the switch
+ * of an empty coil does, conducts only if its current would be positive. */
+static void groups_settle_fired(circuit_shot *s)
 {
-    bool *before = s->forced + s->model.n, some = false;
-    for (int k = 0; k < s->model.n; k++) {
-        before[k] = !before[k] || s->model.groups[k].gate != GATE_ON;
-        some = some || !before[k];
+    const int n = s->model.n;
+    bool *before = s->forced + n, *idle = s->forced + 2 * n, some = false;
+    for (int k = 0; k < n; k++) idle[k] = false;
+    groups_settle(s, NULL, idle);
+    for (int k = 0; k < n; k++) {
+        idle[k] = idle[k] && s->model.groups[k].gate == GATE_ON;
+        before[k] = !idle[k];
+        some = some || idle[k];
     }
     if (some) groups_try(s, before);
-    for (int k = 0; k < s->model.n; k++)
-        if (!before[k] && s->model.groups[k].gate == GATE_WAITING) switched(s, CIRCUIT_SHOT_WAITING, k);
+    for (int k = 0; k < n; k++)
+        if (idle[k] && s->model.groups[k].gate == GATE_WAITING) switched(s, CIRCUIT_SHOT_WAITING, k);
 }
 
 /* ---- the armature ---- */
@@ -219,11 +223,8 @@ static void armature_settle(circuit_shot *s, const int *found)
 
 void circuit_shot_settle(circuit_shot *s, const int *found)
 {
-    groups_settle(s, found);
+    groups_settle(s, found, NULL);
     armature_settle(s, found);
     groups_fire(s);
-    if (!s->restart) return;
-    for (int k = 0; k < s->model.n; k++) s->forced[s->model.n + k] = false;
-    groups_settle(s, NULL);
-    groups_begin(s);
+    if (s->restart) groups_settle_fired(s);
 }

@@ -1573,6 +1573,12 @@ static void test_range(void **state)
     assert_non_null(strstr(warned, "the search ended at study.velocity_high = 1200 m/s without a gouge"));
     assert_non_null(strstr(warned, "order of surfaces"));
     study_onset_answer_free(&a);
+    c->study.velocity_high = 4000.0; /* above what the armature reaches: no threshold up to there says all */
+    c->scene.grid_shift[0] = 10.0;
+    a = studied(c, "beyond", status_ok());
+    assert_true(isnan(a.result.threshold_velocity) && a.result.threshold_interval[0] > 3000.0);
+    assert_null(strstr(warned, "the search ended at"));
+    study_onset_answer_free(&a);
     case_free(c);
 }
 

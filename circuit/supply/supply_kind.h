@@ -75,9 +75,8 @@ struct supply_kind {
     int (*unknowns)(const void *p);                    /* 1 .. SUPPLY_UNKNOWNS */
     bool (*reverses)(const void *p);                   /* its current may be negative; NULL: never */
     int (*pulses)(const void *p);                      /* NULL: one */
-    bool (*stays)(
-        const supply_group *g);    /* its current is at zero, but what drives it goes on: it waits; NULL: never */
-    double (*rise)(const void *p); /* time to its peak, roughly [s] */
+    bool (*stays)(const supply_group *g);              /* without current it waits for more; NULL: it has ended */
+    double (*rise)(const void *p);                     /* time to its peak, roughly [s] */
     void (*start)(const void *p, double *y, supply_scale *scale);                   /* state at t = 0 */
     void (*flow)(const supply_group *g, double t, const double *y, supply_flow *f); /* f comes zeroed */
     bool (*algebraic)(const supply_group *g, int j);                                /* NULL: none */

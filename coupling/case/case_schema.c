@@ -508,7 +508,8 @@ static const case_section sweep_children[] = {
       .given = NO_FLAG,
       .list = true },
     { .key = "read",
-      .doc = "Numbers of the run's summary to tabulate, a list; not given: its first six.",
+      .doc = "Numbers of the run's summary to tabulate, a list; not given: its first six, of a strike what one asks of "
+             "it.",
       .table = word_params,
       .offset = offsetof(case_sweep, read),
       .size = sizeof(case_word),
