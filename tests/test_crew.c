@@ -649,6 +649,30 @@ static int with_a_death(void)
     }
 }
 
+/* Rank 0 does not run while the other comes to the last meeting, goes on and ends: nobody is missing. */
+static int with_an_early_end(void)
+{
+    ranks_memory all;
+    if (run_ranks_start(2).code != STATUS_OK) return 1;
+    const int me = run_ranks_number();
+    if (run_ranks_share(&me, sizeof me, &all).code != STATUS_OK) return 1;
+    const pid_t leader = getppid(), self = getpid();
+    if (me == 1) {
+        nanosleep(&(struct timespec){ 0, 50000000 }, NULL); /* by now rank 0 waits for this one */
+        const pid_t waker = fork();
+        if (waker < 0) return 1;
+        if (waker == 0) {
+            while (getppid() == self) run_ranks_pause();
+            kill(leader, SIGCONT);
+            _exit(0);
+        }
+        kill(leader, SIGSTOP);
+    }
+    run_ranks_unshare(&all);
+    run_ranks_finish();
+    return 0;
+}
+
 /* Its exit code, and the first line of what it says at the end of standard error. */
 static int started_again(const char *self, const char *how, char *said, size_t size)
 {
@@ -673,6 +697,7 @@ static int forked(const char *self)
     const int code = started_again(self, "dying", said, sizeof said);
     printf("one of %d killed: exit code %d, %s", PROCESSES, code, said);
     if (code != 1 || !strstr(said, "process 1 of 3 ended by signal 9") || !strstr(said, "--resume")) return 1;
+    if (started_again(self, "early", said, sizeof said) != 0) return printf("one ended before rank 0 looked: %s", said), 1;
     return started_again(self, "forked", NULL, 0);
 }
 
@@ -696,6 +721,7 @@ int main(int argc, char **argv)
 {
     if (argc == 1) return forked(argv[0]) ? 1 : as_crew(argv[0]);
     if (strcmp(argv[1], "dying") == 0) return with_a_death();
+    if (strcmp(argv[1], "early") == 0) return with_an_early_end();
     const bool by_launcher = strcmp(argv[1], "crew") == 0;
     const struct CMUnitTest messages[] = { cmocka_unit_test(test_shares), cmocka_unit_test(test_put_off) };
     const struct CMUnitTest tests[] = {

@@ -171,6 +171,14 @@ static status receive(message *out, bool *any)
 
 /* ---- memory of all ---- */
 
+/* Has this process ended before it came?  Who is waited for no more may have gone on to its end. */
+static bool is_missing(int rank, int round)
+{
+    siginfo_t gone = { .si_pid = 0 };
+    if (waitid(P_PID, (id_t)lines[rank].pid, &gone, WEXITED | WNOHANG | WNOWAIT) != 0) return false;
+    return gone.si_pid && atomic_load(&met->round) == round;
+}
+
 static void meet(void)
 {
     const int round = atomic_load(&met->round);
@@ -182,11 +190,8 @@ static void meet(void)
     while (atomic_load(&met->round) == round) {
         run_ranks_pause();
         if (own.number > 0 && getppid() != parent) _exit(1);
-        for (int r = 1; own.number == 0 && r < own.count; r++) {
-            siginfo_t gone = { .si_pid = 0 };
-            if (waitid(P_PID, (id_t)lines[r].pid, &gone, WEXITED | WNOHANG | WNOWAIT) == 0 && gone.si_pid)
-                end_all(&lines[r]);
-        }
+        for (int r = 1; own.number == 0 && r < own.count; r++)
+            if (is_missing(r, round)) end_all(&lines[r]);
     }
 }
 
