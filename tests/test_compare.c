@@ -575,7 +575,9 @@ static void test_screened_surface(void **state)
         const compare_entry *skin = entry_of(&a, "skin");
         assert_true((skin->scenes == 0) == (k == 0));
         if (k == 0) {
-            assert_true(rank_of(&a, "skin") == 0 && skin->gouges == 0.0 && skin->better_than_next == 1.0);
+            assert_true(rank_of(&a, "skin") == 0 && isnan(skin->gouges) && isnan(skin->better_than_next));
+            assert_true(isnan(a.result.ranking[1].worse_than_best) && isfinite(a.result.ranking[1].gouges));
+            assert_non_null(strstr(a.result.verdict, "without a scene, fewest gouges: skin"));
             assert_true(!skin->significant && a.result.ranking[1].tied == 1); /* by the screen's word alone */
             assert_true(skin->probability_gouge == 0.01);
         }
@@ -595,7 +597,7 @@ static void test_polished_to_nothing(void **state)
     OK(run_compare(c, "polished", &a));
     const compare_entry *best = &a.result.ranking[0];
     assert_string_equal(best->surface, "polished");
-    assert_true(best->scenes == 0 && best->gouges == 0.0 && best->better_than_next == 1.0);
+    assert_true(best->scenes == 0 && isnan(best->gouges) && isnan(best->better_than_next));
     assert_true(!best->significant && a.result.ranking[1].tied == 1);
     assert_non_null(strstr(warned, "taken not to gouge, which nothing shows"));
     study_compare_answer_free(&a);

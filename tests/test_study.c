@@ -613,10 +613,11 @@ static void test_copy(void **state)
 typedef struct {
     int scenes, stop_after; /* of this process; 0: never */
     int whole_scratches;    /* the next so many whole scenes leave craters too long for a gouge */
+    int whole_leans;        /* the next so many leave craters that lean the other way */
     double base;            /* threshold of a 0.5 mm grain [m/s] */
     double tear_drop;       /* velocity at which its groove is four times as long as wide; 0: shapes are not made up */
 } fake;
-static fake counter = { 0, 0, 0, 1430.0, 0.0 }; /* the runner has no place for it */
+static fake counter = { 0, 0, 0, 0, 1430.0, 0.0 }; /* the runner has no place for it */
 
 static double made_up_threshold(double radius)
 {
@@ -646,6 +647,10 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
     if (!gauged && counter.whole_scratches > 0) {
         counter.whole_scratches--;
         out->result.length_over_width = 4.1;
+    }
+    if (!gauged && counter.whole_leans > 0) {
+        counter.whole_leans--;
+        out->result.crater_class = DAMAGE_SCRATCH;
     }
     out->result.crater_volume = (gauged ? 0.3e-9 : 1e-9) * v; /* as far as it was */
     out->impulse = 0.02;
@@ -697,6 +702,8 @@ static breech_case *changed_case(const char *const *sets)
     return c;
 }
 
+static char warned[2000]; /* by the last one */
+
 static status study(const breech_case *c, const char *dir, outdir_options how, onset_answer *out)
 {
     static case_onset given; /* the answer borrows it */
@@ -710,6 +717,7 @@ static status study(const breech_case *c, const char *dir, outdir_options how, o
     counter.scenes = 0;
     given = in.onset;
     const status done = study_onset_run(&s, &given, out);
+    snprintf(warned, sizeof warned, "%s", s.warnings ? s.warnings : "");
     OK(run_session_close(&s, done.code == STATUS_OK));
     return done;
 }
@@ -954,6 +962,7 @@ static void test_screened(void **state)
     assert_int_equal(counter.scenes, 0);
     assert_int_equal(a.result.verdict, VERDICT_NO_GOUGING);
     assert_true(a.result.probability_gouge == 0.01);
+    assert_true(isnan(a.result.expected_gouges)); /* nothing is drawn */
     study_onset_answer_free(&a);
     case_free(c);
 }
@@ -1215,6 +1224,14 @@ static void test_contradicted(void **state)
         assert_true((strstr(a.result.reason, "whole scenes contradict: scratch at") != NULL) == contradicted);
         assert_int_equal(a.site[a.result.n_sites - 1].outcome, contradicted ? SITE_UNDECIDED : SITE_GOUGE);
         assert_true(!isnan(a.result.threshold_velocity));
+        assert_null(strstr(warned, "lean"));
+        study_onset_answer_free(&a);
+    }
+    for (int leans = 1; leans <= 2; leans++) { /* the shape alone decides nothing, but is told */
+        counter.whole_leans = leans;
+        OK(study(c, "contradicted", FORCE, &a));
+        assert_int_equal(a.result.verdict, VERDICT_GOUGES);
+        assert_true((strstr(warned, "do not lean as a tear-drop does") != NULL) == (leans == 2));
         study_onset_answer_free(&a);
     }
     case_free(c);

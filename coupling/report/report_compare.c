@@ -17,6 +17,12 @@ static bool gouges_not(const cJSON *entry)
     return report_number(entry, "gouges") == 0.0 && !isfinite(report_number(entry, "threshold_velocity"));
 }
 
+/* No scene was run for its grains. */
+static bool is_undrawn(const cJSON *entry)
+{
+    return !isfinite(report_number(entry, "gouges"));
+}
+
 static void write_threshold(FILE *out, const cJSON *entry)
 {
     report_page_interval(out, report_number(entry, "threshold_velocity"),
@@ -48,10 +54,17 @@ static void write_surface(FILE *out, const cJSON *entry)
         if (report_number(entry, "scenes") == 0.0) fputs(" as far as is known: no scene of its own was run", out);
         return;
     }
+    if (is_undrawn(entry) && !isfinite(report_number(entry, "threshold_velocity"))) {
+        fputs("may gouge or not: no scene of its own was run", out);
+        return;
+    }
     fputs("gouges from ", out);
     write_threshold(out, entry);
     fputs(" on, ", out);
-    write_gouges(out, entry);
+    if (is_undrawn(entry))
+        fputs("how often no scene says", out);
+    else
+        write_gouges(out, entry);
 }
 
 /* The verdict as the summary has it, as a sentence. */

@@ -218,6 +218,12 @@ static double last_found(const repeated_rail *r, mc_change change)
     return r->shots > 0 ? r->shot[r->shots - 1].most[change] : NAN;
 }
 
+static void forget_gouges(compare_entry *e)
+{
+    e->gouges = e->last_gouges = e->gouged_volume = NAN;
+    for (int k = 0; k < 2; k++) e->gouges_interval[k] = e->gouged_volume_interval[k] = NAN;
+}
+
 static void fill_entry(const case_treatments *treatments, const compare_answer *a, int i, compare_entry *e)
 {
     const onset_result *r = &a->answer[i].result;
@@ -235,13 +241,17 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     e->threshold_position = r->threshold_position;
     memcpy(e->threshold_position_interval, r->threshold_position_interval, sizeof e->threshold_position_interval);
     e->onset_position = a->treated[i].populations.n > 0 ? first->first[1] : r->onset_position;
-    e->gouges = mean->gouges;
-    memcpy(e->gouges_interval, mean->gouges_interval, sizeof e->gouges_interval);
-    e->last_gouges = last->gouges;
+    if (study_onset_is_undrawn(&a->answer[i])) {
+        forget_gouges(e);
+    } else {
+        e->gouges = mean->gouges;
+        memcpy(e->gouges_interval, mean->gouges_interval, sizeof e->gouges_interval);
+        e->last_gouges = last->gouges;
+        e->gouged_volume = mean->volume;
+        memcpy(e->gouged_volume_interval, mean->volume_interval, sizeof e->gouged_volume_interval);
+    }
     e->layer_worn = last_found(&a->answer[i].rail, MC_WEAR);
     e->deposit = last_found(&a->answer[i].rail, MC_METAL);
-    e->gouged_volume = mean->volume;
-    memcpy(e->gouged_volume_interval, mean->volume_interval, sizeof e->gouged_volume_interval);
     e->probability_gouge = fmax(mean->probability, a->answer[i].grains.screen_probability);
     e->scenes = own_scenes(a, i);
     fill_life(study_life_compare_find(&a->life, e->surface), e);
@@ -313,6 +323,8 @@ static status rank(const case_treatments *treatments, compare_answer *a)
         e->better_than_next = k + 1 < a->n ? share_better(a, order[k], order[k + 1]) : NAN;
         e->significant = e->better_than_next >= STUDY_SIGNIFICANT && !rests_on_no_scene(a, order[k]);
         e->worse_than_best = k > 0 ? share_better(a, order[0], order[k]) : NAN;
+        if (study_onset_is_undrawn(&a->answer[order[k]])) e->better_than_next = NAN;
+        if (study_onset_is_undrawn(&a->answer[order[0]])) e->worse_than_best = NAN;
         e->tied = leader_of(a, order, k) + 1;
     }
     free(order);

@@ -26,7 +26,8 @@ static const summary_key entry_keys[] = {
                    "not passed in this shot"),
     SUMMARY_NUMBER(compare_entry, "threshold_deviation", threshold_deviation, "m/s",
                    "standard deviation over study.threshold_ensemble grids; its interval holds it; null: not known"),
-    SUMMARY_NUMBER(compare_entry, "gouges", gouges, "1", "a shot, expected, mean of all shots: what ranks"),
+    SUMMARY_NUMBER(compare_entry, "gouges", gouges, "1",
+                   "a shot, expected, mean of all shots: what ranks; null: no scene was run for its grains"),
     SUMMARY_VECTOR(compare_entry, "gouges_interval", gouges_interval, 2, "1", "5 and 95 % of what may be true"),
     SUMMARY_NUMBER(compare_entry, "last_gouges", last_gouges, "1",
                    "expected of the last shot, on the rail that the shots before it have left"),
@@ -78,15 +79,27 @@ const summary_key study_compare_keys[] = {
     SUMMARY_END
 };
 
+static void print_gouges(const compare_entry *e, FILE *out)
+{
+    fprintf(out, "%s: ", e->surface);
+    if (isfinite(e->gouges))
+        fprintf(out, "%.3g gouges a shot", e->gouges);
+    else
+        fputs("how many gouges a shot no scene says", out);
+}
+
 /* The verdict, and what it says of the first surface in numbers. */
 static void print_verdict(const compare_result *c, FILE *out)
 {
     const compare_entry *best = c->ranking, *next = c->ranking + 1;
     if (c->n < 2) return;
-    fprintf(out, "\n%s\n%s: %.3g gouges a shot (%.3g .. %.3g)", c->verdict, best->surface, best->gouges,
-            best->gouges_interval[0], best->gouges_interval[1]);
+    fprintf(out, "\n%s\n", c->verdict);
+    print_gouges(best, out);
+    if (isfinite(best->gouges)) fprintf(out, " (%.3g .. %.3g)", best->gouges_interval[0], best->gouges_interval[1]);
     if (isfinite(best->threshold_velocity)) fprintf(out, ", threshold %.0f m/s", best->threshold_velocity);
-    fprintf(out, "; %s: %.3g\n", next->surface, next->gouges);
+    fputs("; ", out);
+    print_gouges(next, out);
+    fputc('\n', out);
 }
 
 static void print_ranking(const compare_result *c, FILE *out)

@@ -49,6 +49,7 @@ void study_compare_conclude(compare_result *r)
         snprintf(r->verdict, sizeof r->verdict, "none of the %d surfaces gouges in this shot", r->n);
         return;
     }
+    if (isnan(r->ranking[0].gouges)) say(r, "without a scene, ");
     say(r, tied > 0 ? "fewest gouges: " : "best is ");
     say(r, r->ranking[0].surface);
     if (tied == 0) return;

@@ -192,12 +192,11 @@ static void forget_gouges(onset_result *r)
     for (int k = 0; k < 2; k++) r->expected_gouges_interval[k] = r->expected_gouged_volume_interval[k] = NAN;
 }
 
-/* Grains of which the screen alone speaks are not drawn: where it leaves open whether they gouge, nobody knows how many
- * do and where the first one lies. */
+/* Nobody knows how many of such grains gouge and where the first one lies. */
 static void forget_undrawn(onset_answer *a)
 {
     onset_result *r = &a->result;
-    if (!study_onset_screen_leaves_open(a)) return;
+    if (!study_onset_is_undrawn(a)) return;
     forget_gouges(r);
     r->n_along = 0;
     for (int k = 0; k < r->n_shots; k++) {

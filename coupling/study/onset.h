@@ -187,6 +187,10 @@ const char *study_onset_contradiction(const onset_answer *a);
 /* Are there grains of which the screen alone speaks, and which it does not call quiet? */
 bool study_onset_screen_leaves_open(const onset_answer *a);
 
+/* Grains without a scene are not drawn in random shots.  Are there such of which the number that gouges is not known:
+ * those that the screen leaves open, or all there are? */
+bool study_onset_is_undrawn(const onset_answer *a);
+
 /* The scenes of the session, as a summary lists them, and what is to be warned of in them; *n of them, the caller
  * frees. */
 status study_onset_list_scenes(session *s, onset_scene **out, int *n, int *run, int *reused);

@@ -78,22 +78,30 @@ static damage_class left_by(const scene_result *r, double limit)
     return r->class == DAMAGE_GOUGE && r->length_over_width > limit ? DAMAGE_SCRATCH : r->class;
 }
 
-/* One of them left no gouge, and none left one: what is there at the end decides as much as growth. */
-static void find_contradiction(grain_family *f, double limit)
+static damage_class shaped_by(const scene_result *r, double limit)
+{
+    (void)limit;
+    return r->crater_class;
+}
+
+/* What the whole scenes that gouge for sure are by another measure, if one of them is no gouge by it and none is one;
+ * else "". */
+static void find_others(const grain_family *f, damage_class (*by)(const scene_result *r, double limit), double limit,
+                        char out[WHOLE_SCENES_SIZE])
 {
     int gouges = 0, others = 0;
-    f->contradicted[0] = '\0';
+    out[0] = '\0';
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *s = &f->scene[i];
         if (!is_sure(f, s)) continue;
-        const damage_class class = left_by(&s->record->entry.result, limit);
-        const size_t used = strlen(f->contradicted);
+        const damage_class class = by(&s->record->entry.result, limit);
+        const size_t used = strlen(out);
         gouges += class == DAMAGE_GOUGE;
         others += class == DAMAGE_NONE || class == DAMAGE_SCRATCH;
-        snprintf(f->contradicted + used, sizeof f->contradicted - used, "%s%s at %g m/s", used ? ", " : "",
-                 run_damage_names[class], s->velocity);
+        snprintf(out + used, WHOLE_SCENES_SIZE - used, "%s%s at %g m/s", used ? ", " : "", run_damage_names[class],
+                 s->velocity);
     }
-    if (gouges > 0 || others == 0) f->contradicted[0] = '\0';
+    if (gouges > 0 || others == 0) out[0] = '\0';
 }
 
 const char *study_onset_contradiction(const onset_answer *a)
@@ -105,12 +113,20 @@ const char *study_onset_contradiction(const onset_answer *a)
 
 static void find_contradictions(session *s, onset_answer *a)
 {
+    const double limit = a->grains.c->impact.scene.limit_length_over_width;
     for (int k = 0; k < a->grains.n; k++) {
         grain_family *f = &a->grains.family[k];
-        find_contradiction(f, a->grains.c->impact.scene.limit_length_over_width);
+        char shapes[WHOLE_SCENES_SIZE];
+        find_others(f, left_by, limit, f->contradicted);
+        find_others(f, shaped_by, limit, shapes);
         if (f->contradicted[0])
             run_session_warn(s, "%sgrains of kind %d gouge by the growth of their grooves, but not by whole scenes: %s",
                              a->grains.surface, k + 1, f->contradicted);
+        else if (shapes[0])
+            run_session_warn(s,
+                             "%sgrains of kind %d gouge by growth and by length over width, but their whole craters "
+                             "do not lean as a tear-drop does (scene.limit_severity): %s",
+                             a->grains.surface, k + 1, shapes);
     }
 }
 
@@ -158,6 +174,12 @@ static bool may_gouge_by_screen(const onset_answer *a, int site)
 bool study_onset_screen_leaves_open(const onset_answer *a)
 {
     return a->grains.unbacked > 0 && a->grains.screen_probability >= DOUBT;
+}
+
+bool study_onset_is_undrawn(const onset_answer *a)
+{
+    const grain_families *g = &a->grains;
+    return study_onset_screen_leaves_open(a) || (g->n == 0 && (g->unbacked > 0 || g->too_small > 0));
 }
 
 /* First site along the barrel, of those with an answer to be had, whose velocity has passed `end` of its threshold:

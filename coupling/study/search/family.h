@@ -40,6 +40,8 @@ typedef struct {
     double excess, threshold, reach, more, against;
 } family_scatter;
 
+enum { WHOLE_SCENES_SIZE = 120 };
+
 typedef struct {
     case_site grain; /* of its first site or population; the size is the scene's */
     double aspect;   /* height over radius */
@@ -49,7 +51,8 @@ typedef struct {
     surface_result surface;   /* of the gouge */
     surface_result scratches; /* of the scratch; nothing without it */
     family_scatter scatter, scratch_scatter;
-    char contradicted[120]; /* what whole scenes are where growth says that it gouges for sure; "": they agree */
+    /* What whole scenes are where growth says that it gouges for sure; "": they agree. */
+    char contradicted[WHOLE_SCENES_SIZE];
     int n_scenes;
     family_scene scene[THRESHOLD_MAX_SAMPLES];
 } grain_family;
