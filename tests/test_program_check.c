@@ -151,6 +151,7 @@ static void test_check_says_what_a_study_takes(void **state)
                          "--set scene.cells_per_layer=2"),
                      0);
     assert_false(contains("out.txt", "cells across: "));
+    assert_true(contains("out.txt", ", a layer's own cells where it flows (scene.cells_per_layer)"));
 }
 
 static void test_check_refuses_what_fits_nowhere(void **state)

@@ -184,9 +184,6 @@ const grain_family *study_onset_leading_grain(const onset_answer *a, double *rad
  * NULL: nowhere. */
 const char *study_onset_contradiction(const onset_answer *a);
 
-/* Are there grains of which the screen alone speaks, and which it does not call quiet? */
-bool study_onset_screen_leaves_open(const onset_answer *a);
-
 /* Grains without a scene are not drawn in random shots.  Are there such of which the number that gouges is not known:
  * those that the screen leaves open, or all there are? */
 bool study_onset_is_undrawn(const onset_answer *a);

@@ -171,7 +171,8 @@ static bool may_gouge_by_screen(const onset_answer *a, int site)
     return is_unbacked(a, site) && a->site[site].screen_probability >= DOUBT;
 }
 
-bool study_onset_screen_leaves_open(const onset_answer *a)
+/* Are there grains of which the screen alone speaks, and which it does not call quiet? */
+static bool screen_leaves_open(const onset_answer *a)
 {
     return a->grains.unbacked > 0 && a->grains.screen_probability >= DOUBT;
 }
@@ -179,7 +180,7 @@ bool study_onset_screen_leaves_open(const onset_answer *a)
 bool study_onset_is_undrawn(const onset_answer *a)
 {
     const grain_families *g = &a->grains;
-    return study_onset_screen_leaves_open(a) || (g->n == 0 && (g->unbacked > 0 || g->too_small > 0));
+    return screen_leaves_open(a) || (g->n == 0 && (g->unbacked > 0 || g->too_small > 0));
 }
 
 /* First site along the barrel, of those with an answer to be had, whose velocity has passed `end` of its threshold:
