@@ -463,7 +463,8 @@ static void test_paraview_crater(void **state)
         print_message("paraview or xvfb is not installed\n");
         skip();
     }
-    assert_int_equal(system("xvfb-run -a pvbatch '" BREECH_TESTS "/../coupling/tools/paraview_crater.py' "
+    assert_int_equal(system("xvfb-run -a -n $((100 + $$ % 9000)) pvbatch '" BREECH_TESTS
+                            "/../coupling/tools/paraview_crater.py' "
                             "scene/a/scenes/scene/scene.hdf.series scene/crater.png damage >out.txt 2>err.txt"),
                      0);
     int points = 0;
