@@ -577,7 +577,7 @@ static void test_screened_surface(void **state)
         if (k == 0) {
             assert_true(rank_of(&a, "skin") == 0 && isnan(skin->gouges) && isnan(skin->better_than_next));
             assert_true(isnan(a.result.ranking[1].worse_than_best) && isfinite(a.result.ranking[1].gouges));
-            assert_non_null(strstr(a.result.verdict, "without a scene, fewest gouges: skin"));
+            assert_non_null(strstr(a.result.verdict, "with grains that no scene was run for, fewest gouges: skin"));
             assert_true(!skin->significant && a.result.ranking[1].tied == 1); /* by the screen's word alone */
             assert_true(skin->probability_gouge == 0.01);
         }
@@ -598,6 +598,7 @@ static void test_polished_to_nothing(void **state)
     const compare_entry *best = &a.result.ranking[0];
     assert_string_equal(best->surface, "polished");
     assert_true(best->scenes == 0 && isnan(best->gouges) && isnan(best->better_than_next));
+    assert_true(isnan(best->probability_gouge));
     assert_true(!best->significant && a.result.ranking[1].tied == 1);
     assert_non_null(strstr(warned, "taken not to gouge, which nothing shows"));
     study_compare_answer_free(&a);

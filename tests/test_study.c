@@ -1224,14 +1224,15 @@ static void test_contradicted(void **state)
         assert_true((strstr(a.result.reason, "whole scenes contradict: scratch at") != NULL) == contradicted);
         assert_int_equal(a.site[a.result.n_sites - 1].outcome, contradicted ? SITE_UNDECIDED : SITE_GOUGE);
         assert_true(!isnan(a.result.threshold_velocity));
-        assert_null(strstr(warned, "lean"));
+        assert_null(strstr(warned, "crater_class"));
         study_onset_answer_free(&a);
     }
     for (int leans = 1; leans <= 2; leans++) { /* the shape alone decides nothing, but is told */
         counter.whole_leans = leans;
         OK(study(c, "contradicted", FORCE, &a));
         assert_int_equal(a.result.verdict, VERDICT_GOUGES);
-        assert_true((strstr(warned, "do not lean as a tear-drop does") != NULL) == (leans == 2));
+        assert_true((strstr(warned, "by the shape of their whole craters alone (crater_class): scratch at") != NULL) ==
+                    (leans == 2));
         study_onset_answer_free(&a);
     }
     case_free(c);

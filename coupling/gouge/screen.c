@@ -5,7 +5,7 @@
 
 #define FASTEST 2e4 /* [m/s] no launcher comes near */
 
-static const double RATIO_5 = 4.42, RATIO_95 = 10.4; /* gouging begins there (screen.h) */
+static const double RATIO_5 = 4.05, RATIO_95 = 10.4; /* gouging begins there (screen.h) */
 static const double NORMAL_95 = 1.6449;              /* 95 % of a normal deviate lie below */
 static const double LEAST = 0.01;                    /* a rule calibrated on one pair is not surer than that */
 

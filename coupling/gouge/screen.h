@@ -8,8 +8,8 @@
  * millimetre, and counts alone where it is thicker than the grain is high.
  * The screen knows nothing of shape and lead angle, so it only skips: below study.screen_low no scene is run, above it
  * nothing is said without one.  What it skips is not impossible but improbable (`probability`), by the width of what it
- * was calibrated with, 7075 on copper: scenes with a welded grain of 0.5 mm begin to gouge at 0.658 km/s at the lowest
- * (where the default shot's interval ends), a ratio of 4.42; Stefani and Parker (1999) report gouging from 1.4 km/s,
+ * was calibrated with, 7075 on copper: scenes with a welded grain of 0.5 mm begin to gouge at 0.608 km/s at the lowest
+ * (where the default shot's interval ends), a ratio of 4.05; Stefani and Parker (1999) report gouging from 1.4 km/s,
  * 17.7 GPa, a ratio of 10.4. */
 #ifndef BREECH_COUPLING_SCREEN_H
 #define BREECH_COUPLING_SCREEN_H

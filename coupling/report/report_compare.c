@@ -12,15 +12,18 @@
 
 /* ---- the headline ---- */
 
-static bool gouges_not(const cJSON *entry)
-{
-    return report_number(entry, "gouges") == 0.0 && !isfinite(report_number(entry, "threshold_velocity"));
-}
-
-/* No scene was run for its grains. */
+/* There are grains that no scene was run for. */
 static bool is_undrawn(const cJSON *entry)
 {
     return !isfinite(report_number(entry, "gouges"));
+}
+
+static const double QUIET = 0.05; /* probability below which the screen calls grains so, as the verdict takes it */
+
+static bool gouges_not(const cJSON *entry)
+{
+    const bool quiet = is_undrawn(entry) && report_number(entry, "probability_gouge") < QUIET;
+    return (report_number(entry, "gouges") == 0.0 || quiet) && !isfinite(report_number(entry, "threshold_velocity"));
 }
 
 static void write_threshold(FILE *out, const cJSON *entry)
@@ -55,14 +58,14 @@ static void write_surface(FILE *out, const cJSON *entry)
         return;
     }
     if (is_undrawn(entry) && !isfinite(report_number(entry, "threshold_velocity"))) {
-        fputs("may gouge or not: no scene of its own was run", out);
+        fputs("may gouge or not: no scene was run for some of its grains", out);
         return;
     }
     fputs("gouges from ", out);
     write_threshold(out, entry);
     fputs(" on, ", out);
     if (is_undrawn(entry))
-        fputs("how often no scene says", out);
+        fputs("how often is not known: no scene was run for some of its grains", out);
     else
         write_gouges(out, entry);
 }

@@ -320,7 +320,7 @@ void study_check_assumptions(const case_inputs *in, int threads, double rate, FI
     fputs("not counted: shorter steps where it gets hot or fast, an end before its time where nothing changes any more",
           out);
     if (in->given.bodies && in->bodies.scene.refines > 0) fputs(", cells that scene.refine makes small later", out);
-    if (in->onset.impact.scene.cells_per_layer > 0.0)
+    if (in->onset.impact.scene.cells_per_layer > 0.0 && (in->onset.impact.rail.layers.n > 0 || in->treatments.n > 0))
         fputs(", a layer's own cells where it flows (scene.cells_per_layer), which may cost most of all", out);
     if (in->given.bodies && in->bodies.scene.probes > 0) fputs(", probes", out);
     if (in->output.snapshots > 0) fprintf(out, ", %d snapshots", in->output.snapshots);

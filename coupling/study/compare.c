@@ -218,6 +218,12 @@ static double last_found(const repeated_rail *r, mc_change change)
     return r->shots > 0 ? r->shot[r->shots - 1].most[change] : NAN;
 }
 
+/* All are too small for a scene: whether they gouge nothing says. */
+static bool is_unseen(const grain_families *g)
+{
+    return g->n == 0 && g->too_small > 0;
+}
+
 static void forget_gouges(compare_entry *e)
 {
     e->gouges = e->last_gouges = e->gouged_volume = NAN;
@@ -252,7 +258,8 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     }
     e->layer_worn = last_found(&a->answer[i].rail, MC_WEAR);
     e->deposit = last_found(&a->answer[i].rail, MC_METAL);
-    e->probability_gouge = fmax(mean->probability, a->answer[i].grains.screen_probability);
+    e->probability_gouge =
+        is_unseen(&a->answer[i].grains) ? NAN : fmax(mean->probability, a->answer[i].grains.screen_probability);
     e->scenes = own_scenes(a, i);
     fill_life(study_life_compare_find(&a->life, e->surface), e);
     judge_layers(&a->treated[i], &a->answer[i].grains, e);
@@ -267,10 +274,16 @@ static double place_of_threshold(const onset_result *r)
     return below && !isnan(r->threshold_interval[1]) ? -INFINITY : INFINITY;
 }
 
+/* What ranks a surface; last those with grains that have no scene and that the screen does not call quiet. */
+static double gouges_of(const compare_answer *a, int i)
+{
+    return a->answer[i].grains.screen_probability >= 1.0 - STUDY_SIGNIFICANT ? INFINITY : a->mean[i].gouges;
+}
+
 /* Is surface i the better one?  Of equals the later threshold, then the order of the case. */
 static bool is_better(const compare_answer *a, int i, int j)
 {
-    const double gi = a->mean[i].gouges, gj = a->mean[j].gouges;
+    const double gi = gouges_of(a, i), gj = gouges_of(a, j);
     const double xi = place_of_threshold(&a->answer[i].result), xj = place_of_threshold(&a->answer[j].result);
     if (gi != gj) return gi < gj;
     return xi != xj ? xi > xj : i < j;
@@ -298,7 +311,7 @@ static void order_of(const compare_answer *a, int *order)
 static bool rests_on_no_scene(const compare_answer *a, int surface)
 {
     const grain_families *g = &a->answer[surface].grains;
-    return g->unbacked > 0 || (g->n == 0 && g->too_small > 0);
+    return g->unbacked > 0 || is_unseen(g);
 }
 
 /* Of the entries before k that lead a group: the best that surface k cannot be told from; else k. */
@@ -323,8 +336,9 @@ static status rank(const case_treatments *treatments, compare_answer *a)
         e->better_than_next = k + 1 < a->n ? share_better(a, order[k], order[k + 1]) : NAN;
         e->significant = e->better_than_next >= STUDY_SIGNIFICANT && !rests_on_no_scene(a, order[k]);
         e->worse_than_best = k > 0 ? share_better(a, order[0], order[k]) : NAN;
-        if (study_onset_is_undrawn(&a->answer[order[k]])) e->better_than_next = NAN;
-        if (study_onset_is_undrawn(&a->answer[order[0]])) e->worse_than_best = NAN;
+        const bool undrawn = study_onset_is_undrawn(&a->answer[order[k]]);
+        if (undrawn || (k + 1 < a->n && study_onset_is_undrawn(&a->answer[order[k + 1]]))) e->better_than_next = NAN;
+        if (undrawn || study_onset_is_undrawn(&a->answer[order[0]])) e->worse_than_best = NAN;
         e->tied = leader_of(a, order, k) + 1;
     }
     free(order);

@@ -27,7 +27,8 @@ static const summary_key entry_keys[] = {
     SUMMARY_NUMBER(compare_entry, "threshold_deviation", threshold_deviation, "m/s",
                    "standard deviation over study.threshold_ensemble grids; its interval holds it; null: not known"),
     SUMMARY_NUMBER(compare_entry, "gouges", gouges, "1",
-                   "a shot, expected, mean of all shots: what ranks; null: no scene was run for its grains"),
+                   "a shot, expected, mean of all shots: what ranks; null: there are grains that no scene was run for, "
+                   "unless the screen calls them quiet and others have scenes"),
     SUMMARY_VECTOR(compare_entry, "gouges_interval", gouges_interval, 2, "1", "5 and 95 % of what may be true"),
     SUMMARY_NUMBER(compare_entry, "last_gouges", last_gouges, "1",
                    "expected of the last shot, on the rail that the shots before it have left"),
@@ -38,10 +39,12 @@ static const summary_key entry_keys[] = {
                    "armature metal on it before the last shot, as a thickness, the largest alike; null: "
                    "study.deposit_kept is not given, or there is one shot"),
     SUMMARY_NUMBER(compare_entry, "probability_gouge", probability_gouge, "1", "that a shot gouges, mean of all shots"),
-    SUMMARY_NUMBER(compare_entry, "better_than_next", better_than_next, "1",
-                   "fraction of what may be true in which it gouges less than the next"),
+    SUMMARY_NUMBER(
+        compare_entry, "better_than_next", better_than_next, "1",
+        "fraction of what may be true in which it gouges less than the next; null: gouges is null of either"),
     SUMMARY_NUMBER(compare_entry, "worse_than_best", worse_than_best, "1",
-                   "fraction of what may be true in which the best gouges less than it; of the best null"),
+                   "fraction of what may be true in which the best gouges less than it; of the best null, and where "
+                   "gouges is null of either"),
     SUMMARY_VALUE(compare_entry, KEY_FLAG, "significant", significant, "",
                   "better_than_next is at least 0.95, by scenes and not by the screen alone"),
     SUMMARY_VALUE(compare_entry, KEY_INTEGER, "tied", tied, "1",
@@ -85,7 +88,7 @@ static void print_gouges(const compare_entry *e, FILE *out)
     if (isfinite(e->gouges))
         fprintf(out, "%.3g gouges a shot", e->gouges);
     else
-        fputs("how many gouges a shot no scene says", out);
+        fputs("gouges a shot not known, for no scene was run for some of its grains", out);
 }
 
 /* The verdict, and what it says of the first surface in numbers. */

@@ -6,9 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Also where no scene was run, if the screen calls its grains quiet. */
 static bool gouges_not(const compare_entry *e)
 {
-    return e->gouges == 0.0 && isnan(e->threshold_velocity);
+    const bool quiet = isnan(e->gouges) && e->probability_gouge < 1.0 - STUDY_SIGNIFICANT;
+    return (e->gouges == 0.0 || quiet) && isnan(e->threshold_velocity);
 }
 
 static void say(compare_result *r, const char *text)
@@ -49,7 +51,7 @@ void study_compare_conclude(compare_result *r)
         snprintf(r->verdict, sizeof r->verdict, "none of the %d surfaces gouges in this shot", r->n);
         return;
     }
-    if (isnan(r->ranking[0].gouges)) say(r, "without a scene, ");
+    if (isnan(r->ranking[0].gouges)) say(r, "with grains that no scene was run for, ");
     say(r, tied > 0 ? "fewest gouges: " : "best is ");
     say(r, r->ranking[0].surface);
     if (tied == 0) return;

@@ -97,7 +97,7 @@ static void find_others(const grain_family *f, damage_class (*by)(const scene_re
         const damage_class class = by(&s->record->entry.result, limit);
         const size_t used = strlen(out);
         gouges += class == DAMAGE_GOUGE;
-        others += class == DAMAGE_NONE || class == DAMAGE_SCRATCH;
+        others += class == DAMAGE_NONE || class == DAMAGE_SCRATCH || (by == shaped_by && class == DAMAGE_UNDECIDED);
         snprintf(out + used, WHOLE_SCENES_SIZE - used, "%s%s at %g m/s", used ? ", " : "", run_damage_names[class],
                  s->velocity);
     }
@@ -124,8 +124,8 @@ static void find_contradictions(session *s, onset_answer *a)
                              a->grains.surface, k + 1, f->contradicted);
         else if (shapes[0])
             run_session_warn(s,
-                             "%sgrains of kind %d gouge by growth and by length over width, but their whole craters "
-                             "do not lean as a tear-drop does (scene.limit_severity): %s",
+                             "%sgrains of kind %d gouge by growth and by length over width, but not by the shape of "
+                             "their whole craters alone (crater_class): %s",
                              a->grains.surface, k + 1, shapes);
     }
 }

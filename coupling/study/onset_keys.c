@@ -21,7 +21,7 @@ static const summary_key site_keys[] = {
     SUMMARY_NUMBER(onset_site, "screen", screen, "1",
                    "impact pressure over hardness of the harder partner, of the rail as deep as the grain is high"),
     SUMMARY_NUMBER(onset_site, "screen_probability", screen_probability, "1",
-                   "that it gouges, by that number alone: 5 % at 4.42, 95 % at 10.4, never below 1 %"),
+                   "that it gouges, by that number alone: 5 % at 4.05, 95 % at 10.4, never below 1 %"),
     SUMMARY_NUMBER(onset_site, "threshold_velocity", threshold_velocity, "m/s", "of a gouge, for its grain"),
     SUMMARY_VECTOR(onset_site, "threshold_interval", threshold_interval, 2, "m/s", "of a gouge, for its grain"),
     SUMMARY_NUMBER(onset_site, "scratch_velocity", scratch_velocity, "m/s", "of a scratch, for its grain"),

@@ -16,6 +16,10 @@ STRENGTH = [  # title, settings
     ("rail x 0.7", {"rail.yield_scale": 0.7}),
     ("rail x 1.4", {"rail.yield_scale": 1.4}),
 ]
+PTW = {"rail.material": "ofhc_copper_ptw"}  # a law for strain rates of small grains
+SMALL = [("%s mm" % radius, {"particle.radius": "%s mm" % radius, **PTW}) for radius in ("0.5", "0.1", "0.05", "0.02")] + [
+    ("0.02 mm, " + title, {"particle.radius": "0.02 mm", **PTW, **settings})
+    for title, settings in STRENGTH if title not in (STRENGTH[0][0], "armature x 0.5")]
 MAP = [
     STRENGTH[0],
     ("not pressed on", {"scene.contact_pressure": "0 Pa"}),
@@ -68,14 +72,18 @@ def row(runs, title, settings):
     return [title, speed(summary, "scratch"), speed(summary, "threshold"), "%d" % (summary["scenes_run"] + summary["scenes_reused"])]
 
 
-def table(runs, rows):
-    columns = [Column("default shot"), Column("scratches from [m/s]", 0.25, words=False),
+def table(runs, rows, first="default shot", note=""):
+    columns = [Column(first), Column("scratches from [m/s]", 0.25, words=False),
                Column("gouges from [m/s]", 0.25, words=False), Column("scenes", words=False)]
-    return [Table(columns, [row(runs, *of) for of in rows])], NOTE
+    return [Table(columns, [row(runs, *of) for of in rows])], NOTE + note
 
 
 def strength(runs):
     return table(runs, STRENGTH)
+
+
+def strength_small(runs):
+    return table(runs, SMALL, "radius of the grain", "; `rail.material=ofhc_copper_ptw`")
 
 
 def inputs(runs):

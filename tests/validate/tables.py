@@ -77,6 +77,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "plate": ("docs/validation/laws.md", part_laws.plate, 1, True),
     "taylor-6061": ("docs/validation/laws.md", part_laws.taylor_6061, 6, False),
     "strength": ("docs/validation/strength.md", part_strength.strength, 30, False),
+    "strength-small": ("docs/validation/strength.md", part_strength.strength_small, 25, False),
     "pairs": ("docs/validation/pairs.md", part_pairs.pairs, 60, False),
     "pairs-null": ("docs/validation/pairs.md", part_pairs.nulls, 1, True),
     "inputs": ("docs/validation/inputs.md", part_strength.inputs, 70, False),
