@@ -43,6 +43,7 @@ MAP = [
     ("grain of 0.1 mm, lead face at 15 degrees", {"particle.radius": "0.1 mm", "armature.lead_angle": "15 deg"}),
     ("grain of 0.1 mm, rail of 450 K", {"particle.radius": "0.1 mm", "rail.temperature": "450 K"}),
     ("grain of 0.05 mm", {"particle.radius": "0.05 mm"}),
+    ("grain of 0.02 mm", {"particle.radius": "0.02 mm"}),
 ]
 
 
