@@ -584,6 +584,17 @@ static void test_screened_surface(void **state)
         study_compare_answer_free(&a);
         case_free(c);
     }
+    /* eight times as hard, which the screen skips but does not call quiet: last, whatever the others do */
+    breech_case *c = read(HEAD GRAINS "treatments:\n  - {name: skin, hardening: {depth: 1 mm, factor: 8}}\n", ALL);
+    c->study.screen_low = 8.0;
+    compare_answer a;
+    OK(run_compare(c, "screened", &a));
+    const compare_entry *skin = entry_of(&a, "skin");
+    assert_true(skin->scenes == 0 && skin->probability_gouge >= 0.05 && isnan(skin->gouges));
+    assert_int_equal(rank_of(&a, "skin"), 1);
+    assert_true(entry_of(&a, "untreated")->gouges > 0.0);
+    study_compare_answer_free(&a);
+    case_free(c);
 }
 
 /* Polished so far that no grain is large enough for a scene: none is drawn that gouges, which is no proof. */

@@ -218,12 +218,6 @@ static double last_found(const repeated_rail *r, mc_change change)
     return r->shots > 0 ? r->shot[r->shots - 1].most[change] : NAN;
 }
 
-/* All are too small for a scene: whether they gouge nothing says. */
-static bool is_unseen(const grain_families *g)
-{
-    return g->n == 0 && g->too_small > 0;
-}
-
 static void forget_gouges(compare_entry *e)
 {
     e->gouges = e->last_gouges = e->gouged_volume = NAN;
@@ -259,7 +253,7 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     e->layer_worn = last_found(&a->answer[i].rail, MC_WEAR);
     e->deposit = last_found(&a->answer[i].rail, MC_METAL);
     e->probability_gouge =
-        is_unseen(&a->answer[i].grains) ? NAN : fmax(mean->probability, a->answer[i].grains.screen_probability);
+        study_onset_is_unseen(&a->answer[i]) ? NAN : fmax(mean->probability, a->answer[i].grains.screen_probability);
     e->scenes = own_scenes(a, i);
     fill_life(study_life_compare_find(&a->life, e->surface), e);
     judge_layers(&a->treated[i], &a->answer[i].grains, e);
@@ -311,7 +305,7 @@ static void order_of(const compare_answer *a, int *order)
 static bool rests_on_no_scene(const compare_answer *a, int surface)
 {
     const grain_families *g = &a->answer[surface].grains;
-    return g->unbacked > 0 || is_unseen(g);
+    return g->unbacked > 0 || study_onset_is_unseen(&a->answer[surface]);
 }
 
 /* Of the entries before k that lead a group: the best that surface k cannot be told from; else k. */

@@ -180,12 +180,6 @@ static status draw_shots(session *s, onset_answer *a)
     return list_along(a, c->launcher.barrel.length);
 }
 
-/* No grain has a scene, and some are too small for one: their threshold is not known. */
-static bool is_unseen(const onset_answer *a)
-{
-    return a->grains.n == 0 && a->grains.too_small > 0;
-}
-
 static void forget_gouges(onset_result *r)
 {
     r->expected_gouges = r->expected_gouged_volume = NAN;
@@ -223,7 +217,7 @@ static void conclude_population(onset_answer *a)
     r->onset_position = first->first[1];
     r->onset_interval[0] = first->first[0];
     r->onset_interval[1] = first->first[2];
-    if (!is_unseen(a)) return;
+    if (!study_onset_is_unseen(a)) return;
     forget_gouges(r);
     r->verdict = VERDICT_UNDECIDED;
     r->probability_gouge = NAN;
@@ -370,7 +364,7 @@ static void explain(onset_answer *a)
     const grain_family *f = study_onset_leading_grain(a, &radius);
     const bool spent = f && f->surface.reference.outcome == THRESHOLD_UNKNOWN;
     const double none[2] = { 0.0, 0.0 }, *allowance = f ? f->surface.reference.allowance : none;
-    if (is_unseen(a))
+    if (study_onset_is_unseen(a))
         say(r,
             "no scene was run: grains of a population below study.smallest_radius = %g um are taken not to gouge, and "
             "nothing shows it",

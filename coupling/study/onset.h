@@ -184,6 +184,9 @@ const grain_family *study_onset_leading_grain(const onset_answer *a, double *rad
  * NULL: nowhere. */
 const char *study_onset_contradiction(const onset_answer *a);
 
+/* No grain has a scene, and some are too small for one: whether they gouge nothing says. */
+bool study_onset_is_unseen(const onset_answer *a);
+
 /* Grains without a scene are not drawn in random shots.  Are there such of which the number that gouges is not known:
  * those that the screen leaves open, or all there are? */
 bool study_onset_is_undrawn(const onset_answer *a);

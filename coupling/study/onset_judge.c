@@ -177,10 +177,14 @@ static bool screen_leaves_open(const onset_answer *a)
     return a->grains.unbacked > 0 && a->grains.screen_probability >= DOUBT;
 }
 
+bool study_onset_is_unseen(const onset_answer *a)
+{
+    return a->grains.n == 0 && a->grains.too_small > 0;
+}
+
 bool study_onset_is_undrawn(const onset_answer *a)
 {
-    const grain_families *g = &a->grains;
-    return screen_leaves_open(a) || (g->n == 0 && (g->unbacked > 0 || g->too_small > 0));
+    return screen_leaves_open(a) || study_onset_is_unseen(a) || (a->grains.n == 0 && a->grains.unbacked > 0);
 }
 
 /* First site along the barrel, of those with an answer to be had, whose velocity has passed `end` of its threshold:
