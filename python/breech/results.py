@@ -66,8 +66,8 @@ class Run:
 
         Of compare, ["verdict"] says which surface is best and which cannot be told from it.  ["ranking"] lists the surfaces by
         "gouges", the expected number a shot, fewest first; of equals the one first that reaches its threshold later along the
-        barrel.  "tied" is 1 for every surface that cannot be told from the best; of any other it is the rank of the best of its
-        group.  "worse_than_best": share of what may be true in which the best has fewer gouges.  "onset_position": place of
+        barrel.  None: it has grains that no scene was run for; where they may gouge it comes last.
+        "tied" is 1 for every surface that cannot be told from the best; of any other it is the rank of the best of its group.  "worse_than_best": share of what may be true in which the best has fewer gouges.  "onset_position": place of
         the first grain that gouges [m], with populations the median; None: no gouging.  It does not rank.
         """
         return json.loads(self._file("summary.json").read_text())

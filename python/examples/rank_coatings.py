@@ -13,8 +13,9 @@ case["study.craters"] = 0     # thresholds and numbers of gouges alone
 run = case.run("compare", "out/coatings", force=True)
 
 for one in run.summary["ranking"]:  # fewest gouges first
-    low, high = (f"{v:.0f}" if v is not None else "-" for v in one["threshold_interval"])
+    low, high = (f"{v:.0f}" if v is not None else "-" for v in one["threshold_interval"] or (None, None))
+    gouges = "not known how many" if one["gouges"] is None else f"{one['gouges']:.2f}"
     told = "" if one["tied"] > 1 else "best, or cannot be told from it"
-    print(f"{one['surface']:12}  gouges from {low} .. {high} m/s  {one['gouges']:.2f} a shot  {told}")
+    print(f"{one['surface']:12}  gouges from {low} .. {high} m/s  {gouges} a shot  {told}")
 print(run.summary["verdict"])
 breech.plot.threshold(run).savefig("out/coatings/ranking.png")
