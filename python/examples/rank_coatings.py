@@ -13,8 +13,7 @@ case["study.craters"] = 0     # thresholds and numbers of gouges alone
 run = case.run("compare", "out/coatings", force=True)
 
 for one in run.summary["ranking"]:  # fewest gouges first
-    low, high = (f"{v:.0f}" if v is not None else "-" for v in one["threshold_interval"] or (None, None))
-    gouges = "not known how many" if one["gouges"] is None else f"{one['gouges']:.2f}"
+    low, high, gouges = ("-" if v is None else f"{v:.4g}" for v in (*(one["threshold_interval"] or [None] * 2), one["gouges"]))
     told = "" if one["tied"] > 1 else "best, or cannot be told from it"
     print(f"{one['surface']:12}  gouges from {low} .. {high} m/s  {gouges} a shot  {told}")
 print(run.summary["verdict"])
