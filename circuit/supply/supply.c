@@ -34,8 +34,11 @@ size_t circuit_supply_size(circuit_supply_kind_index kind)
 void circuit_supply_recharge(circuit_supply_kind_index kind, void *item, int n, double factor)
 {
     const supply_kind *k = circuit_supply_kinds[kind];
-    for (int i = 0; k->charge && i < n; i++)
-        *(double *)(void *)((char *)item + (size_t)i * k->size + k->charge) *= factor;
+    for (int i = 0; i < n; i++) {
+        char *unit = (char *)item + (size_t)i * k->size;
+        *(double *)(void *)(unit + k->charge) *= factor;
+        if (k->battery) *(double *)(void *)(unit + k->battery) *= factor;
+    }
 }
 
 circuit_supply_common circuit_supply_common_of(const void *p)

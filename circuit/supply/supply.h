@@ -92,6 +92,7 @@ typedef struct {
  */
 typedef struct {
     SUPPLY_COMMON
+    double scale;                    /* factor on the points' currents [1] */
     char file[BASE_PARAM_TEXT_SIZE]; /* where the points came from; circuit/ does not open it */
     struct {
         int n;
@@ -121,7 +122,8 @@ extern const base_param circuit_supply_point_params[];
 extern const char *const circuit_supply_sections[]; /* of the case file, by kind, NULL at the end */
 
 size_t circuit_supply_size(circuit_supply_kind_index kind); /* of the kind's struct */
-/* What n units of a kind are charged to (voltage, current, speed) times `factor`; a given current stays. */
+/* What n units of a kind are charged to (voltage, current, speed), a battery's voltage or a given current, times
+ * `factor`. */
 void circuit_supply_recharge(circuit_supply_kind_index kind, void *item, int n, double factor);
 
 #ifndef BREECH_INSIDE

@@ -117,6 +117,7 @@ const supply_kind circuit_kind_inductor = {
     .params = circuit_supply_inductor_params,
     .size = sizeof(circuit_supply_inductor),
     .charge = offsetof(circuit_supply_inductor, current),
+    .battery = offsetof(circuit_supply_inductor, battery_voltage),
     .unknowns = unknowns,
     .stays = stays,
     .rise = rise,

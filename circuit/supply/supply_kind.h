@@ -67,8 +67,9 @@ struct supply_kind {
     const char *name;
     const base_param *params;
     size_t size;
-    size_t charge; /* offset of the double that it is charged to; 0: a given current, which is not charged */
-    bool source;   /* the power it gives is that at the rails */
+    size_t charge;  /* offset of the double that it is charged to, or that scales a given current */
+    size_t battery; /* offset of the voltage that charges it on; 0: none */
+    bool source;    /* the power it gives is that at the rails */
     status (*check)(const void *p, const char *where); /* beyond the table's ranges; NULL: nothing */
     status (*prepare)(supply_group *g);                /* fills curve; NULL: nothing */
     void (*release)(supply_group *g);                  /* frees curve; NULL with prepare */

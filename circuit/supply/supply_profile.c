@@ -13,11 +13,13 @@ static const double REST = 0.05; /* of the peak: a measured current may end with
 
 const base_param circuit_supply_profile_params[] = {
     PARAM_INT(circuit_supply_profile, count, 1, 1, 1e6, "factor on the current"),
+    PARAM_DOUBLE(circuit_supply_profile, scale, "1", 1.0, 1e-6, 1e6, "another, which may be a fraction"),
     PARAM_STRING(circuit_supply_profile, file, "",
                  "table of time [s] and current [A], a row a point; looked for beside the case"),
     PARAM_DOUBLE(circuit_supply_profile, fire_at, "s", 0.0, 0.0, INFINITY,
                  "instant at which the profile's time is 0; beyond options.max_time = never"),
-    SUPPLY_POSITION(circuit_supply_profile), PARAMS_END
+    SUPPLY_POSITION(circuit_supply_profile),
+    PARAMS_END
 };
 
 const base_param circuit_supply_point_params[] = {
@@ -34,7 +36,7 @@ typedef struct {
 static double peak_of(const circuit_supply_profile *p)
 {
     double peak = 1.0;
-    for (int k = 0; k < p->points.n; k++) peak = fmax(peak, fabs(p->points.item[k].current));
+    for (int k = 0; k < p->points.n; k++) peak = fmax(peak, fabs(p->scale * p->points.item[k].current));
     return peak;
 }
 
@@ -45,7 +47,8 @@ static status check(const void *params, const char *where)
     CHECK(n >= 3 && n <= MAX_POINTS, STATUS_BAD_INPUT, "%s: %d points: needs 3 .. %d; give `file` or `points`", where,
           n, MAX_POINTS);
     const circuit_supply_point *q = p->points.item;
-    CHECK(q[0].time == 0.0 && q[0].current == 0.0 && fabs(q[n - 1].current) <= REST * peak_of(p), STATUS_BAD_INPUT,
+    const double rest = fabs(p->scale * q[n - 1].current);
+    CHECK(q[0].time == 0.0 && q[0].current == 0.0 && rest <= REST * peak_of(p), STATUS_BAD_INPUT,
           "%s: runs from %g A at %g s to %g A: the first point must be 0 A at 0 s, the last within 5 %% of the peak",
           where, q[0].current, q[0].time, q[n - 1].current);
     for (int k = 1; k < n; k++) {
@@ -79,7 +82,7 @@ static status prepare(supply_group *g)
     gsl_set_error_handler(handler);
     CHECK(c->t && c->interp, STATUS_MEMORY, "out of memory for a current profile of %d points", c->n);
     c->i = c->t + n;
-    for (size_t k = 0; k < given; k++) c->t[k] = point[k].time, c->i[k] = point[k].current;
+    for (size_t k = 0; k < given; k++) c->t[k] = point[k].time, c->i[k] = p->scale * point[k].current;
     if (n > given) c->t[given] = 2.0 * point[last].time - point[last - 1].time, c->i[given] = 0.0;
     CHECK(gsl_interp_init(c->interp, c->t, c->i, n) == GSL_SUCCESS, STATUS_NUMERICAL,
           "a current profile of %d points fits no curve", c->n);
@@ -105,7 +108,7 @@ static double rise(const void *params)
     const circuit_supply_profile *p = params;
     const double peak = peak_of(p);
     int k = 0;
-    while (k < p->points.n && fabs(p->points.item[k].current) < peak) k++;
+    while (k < p->points.n && fabs(p->scale * p->points.item[k].current) < peak) k++;
     return k < p->points.n ? p->points.item[k].time : p->points.item[p->points.n - 1].time;
 }
 
@@ -172,6 +175,7 @@ const supply_kind circuit_kind_profile = {
     .name = "profile",
     .params = circuit_supply_profile_params,
     .size = sizeof(circuit_supply_profile),
+    .charge = offsetof(circuit_supply_profile, scale),
     .source = true,
     .check = check,
     .prepare = prepare,
