@@ -127,8 +127,8 @@ static void peaks_update(circuit_shot *s)
     if (s->model.phase == CIRCUIT_SHOT_LEFT) return;
     const shot_forces f = circuit_shot_forces_at(&s->model, &d, circuit_shot_z(s));
     circuit_shot_lead_face_update(s, &f);
-    if (s->model.phase == CIRCUIT_SHOT_HELD) return;
     circuit_shot_limits_update(s, &f);
+    if (s->model.phase == CIRCUIT_SHOT_HELD) return;
     s->result.peak_acceleration = fmax(s->result.peak_acceleration, f.net / circuit_shot_z(s)[Y_MASS]);
 }
 

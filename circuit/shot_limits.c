@@ -176,18 +176,18 @@ void circuit_shot_limits_update(circuit_shot *s, const shot_forces *f)
     const circuit_shot_armature *a = &s->model.armature;
     const double *z = circuit_shot_z(s), I = fabs(f->I - f->shunt), x = z[Y_X];
     circuit_shot_limits *l = &s->limits;
-    if (s->model.phase != CIRCUIT_SHOT_MOVING) return;
+    const double melting = melt_action(a);
+    l->leg_action = z[Y_ACTION] / (melting * a->leg_area * a->leg_area);
+    l->throat_action = z[Y_ACTION] / (melting * a->throat_area * a->throat_area);
+    first_place(&l->transition_position, l->leg_action > 1.0 || l->throat_action > 1.0, x);
+    if (s->model.phase != CIRCUIT_SHOT_MOVING) return; /* held, it melts all the same */
     if (I > CURRENT_THAT_COUNTS * s->result.peak_current) {
         const double ratio = f->contact / (GRAM_FORCE * I);
         l->contact_ratio = fmin(ratio, isnan(l->contact_ratio) ? INFINITY : l->contact_ratio);
         first_place(&l->contact_position, ratio < 1.0, x);
     }
-    const double melting = melt_action(a);
-    l->leg_action = z[Y_ACTION] / (melting * a->leg_area * a->leg_area);
-    l->throat_action = z[Y_ACTION] / (melting * a->throat_area * a->throat_area);
     l->wear_share = worn_thickness(s, f) / a->wear_thickness;
-    const bool over = l->contact_ratio < 1.0 || l->leg_action > 1.0 || l->throat_action > 1.0 || l->wear_share > 1.0;
-    first_place(&l->transition_position, over, x);
+    first_place(&l->transition_position, l->contact_ratio < 1.0 || l->wear_share > 1.0, x);
     first_place(&l->critical_position, z[Y_V] > l->critical_velocity, x);
 }
 

@@ -414,8 +414,12 @@ static void stuck_armature(void **state)
     const circuit_shot_module m = unit_200kJ(10, 0.0);
     circuit_shot_config c = plain(&m, 1);
     c.armature.preload = 1e7;
+    c.armature.leg_area = 1e-4;
     circuit_shot *s = run(&c);
     assert_true(circuit_shot_done(s));
+    assert_true(circuit_shot_limits_of(s).leg_action > 1.0); /* at rest the current melts it all the same */
+    assert_true(circuit_shot_limits_of(s).transition_position == c.barrel.start);
+    assert_true(isnan(circuit_shot_limits_of(s).contact_ratio) && isnan(circuit_shot_limits_of(s).wear_share));
     assert_true(circuit_shot_now(s).x == c.barrel.start && circuit_shot_now(s).phase == CIRCUIT_SHOT_HELD);
     assert_true(isnan(circuit_shot_result(s).muzzle_velocity) && circuit_shot_result(s).peak_current > 1e6);
     assert_int_equal(rec.count[CIRCUIT_SHOT_RELEASED] + rec.count[CIRCUIT_SHOT_MUZZLE], 0);
