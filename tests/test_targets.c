@@ -14,7 +14,7 @@ static target_entry entry(strike_class class, double residual, double lo, double
 }
 
 /* What holds comes first, then what leaves less velocity; what differs by less than a hundredth of the arrival's is
- * tied with the best of its group, never with the next alone. */
+ * tied with the best of its group, never with the next alone.  What is not decided comes last, tied with the best. */
 static void test_by_arrival(void **state)
 {
     (void)state;
@@ -24,7 +24,7 @@ static void test_by_arrival(void **state)
                          entry(STRIKE_BULGED, 1.0, NAN, NAN) };
     target_ranking r = { .n = 7, .ranking = e };
     static const double left[] = { -30.0, 1.0, 0.0, 500.0, 508.0, 516.0, 100.0 };
-    static const int tied[] = { 1, 1, 3, 4, 4, 6, 7 };
+    static const int tied[] = { 1, 1, 3, 4, 4, 6, 1 };
     study_targets_rank(&r);
     for (int k = 0; k < 7; k++) {
         assert_true(e[k].is.residual_velocity == left[k]);
@@ -43,6 +43,35 @@ static void test_by_limit(void **state)
     study_targets_rank(&r);
     assert_true(e[0].limit_interval[0] == 900.0 && e[1].limit_interval[0] == 340.0 && e[3].limit_interval[1] == 200.0);
     for (int k = 0; k < 4; k++) assert_int_equal(e[k].tied, tied[k]);
+}
+
+/* The interval where all is well, where one class is missing, where nothing slow is decided, and where the limit turns
+ * back: then it spans all of it, to the fastest that is held where nothing faster pierces. */
+static void test_limit_ends(void **state)
+{
+    (void)state;
+    enum { H = STRIKE_BULGED, O = STRIKE_UNFINISHED, P = STRIKE_PIERCED, MOST = 5 };
+    static const struct {
+        int class[MOST];
+        double lo, hi;
+        bool turns_back;
+    } cases[] = {
+        { { H, H, O, P, P }, 200.0, 400.0, false }, /* at 100, 200 .. 500 m/s */
+        { { H, H, H, H, H }, 500.0, NAN, false },   { { P, P, P, P, P }, NAN, 100.0, false },
+        { { O, O, P, O, O }, NAN, 300.0, false },   { { O, O, O, O, O }, NAN, NAN, false },
+        { { H, P, H, P, P }, 100.0, 400.0, true },  { { O, P, H, P, P }, NAN, 400.0, true },
+        { { H, P, P, P, H }, 100.0, 500.0, true },
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        strike_arrival arrival[MOST];
+        for (int i = 0; i < MOST; i++)
+            arrival[i].is = (strike_outcome){ .class = cases[c].class[i], .impact_velocity = 100.0 * (i + 1) };
+        strike_limit l = { .arrivals = MOST, .arrival = arrival };
+        const double want[2] = { cases[c].lo, cases[c].hi };
+        assert_true(study_strike_limit_ends(&l, STRIKE_PIERCED) == !cases[c].turns_back);
+        for (int k = 0; k < 2; k++) assert_true(isnan(want[k]) ? isnan(l.interval[k]) : l.interval[k] == want[k]);
+        assert_true(isnan(want[0] + want[1]) ? isnan(l.velocity) : l.velocity == 0.5 * (want[0] + want[1]));
+    }
 }
 
 /* ---- the command ---- */
@@ -135,9 +164,8 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_by_arrival),
-        cmocka_unit_test(test_by_limit),
-        cmocka_unit_test(test_as_strikes_of_their_own),
+        cmocka_unit_test(test_by_arrival), cmocka_unit_test(test_by_limit),
+        cmocka_unit_test(test_limit_ends), cmocka_unit_test(test_as_strikes_of_their_own),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -96,42 +96,10 @@ static status answer(session *s, const study_case *of, const strike_projectile *
     return status_ok();
 }
 
-/* The fastest arrival up to a velocity that was really held; the slowest from one on that was not.  NaN: none [m/s]. */
-static double fastest_held(const strike_limit *l, const strike_projectile *p, double velocity)
-{
-    double found = NAN;
-    for (int i = 0; i < l->arrivals && l->arrival[i].is.impact_velocity <= velocity; i++) {
-        const strike_class class = (strike_class)l->arrival[i].is.class;
-        if (class != class_above(p) && class != STRIKE_UNFINISHED) found = l->arrival[i].is.impact_velocity;
-    }
-    return found;
-}
-
-static double slowest_above(const strike_limit *l, const strike_projectile *p, double velocity)
-{
-    for (int i = 0; i < l->arrivals; i++) {
-        const strike_outcome *o = &l->arrival[i].is;
-        if (o->impact_velocity >= velocity && (strike_class)o->class == class_above(p)) return o->impact_velocity;
-    }
-    return NAN;
-}
-
-/* Of all arrivals, the strike's own too: the fastest held below all that are above, and the slowest above beyond all
- * that are held, so where the limit turns back both are outside.  false: it does. */
-static bool set_ends(strike_limit *l, const strike_projectile *p)
-{
-    const double slowest = slowest_above(l, p, 0.0), fastest = fastest_held(l, p, INFINITY);
-    l->interval[0] = fastest_held(l, p, slowest);
-    l->interval[1] = slowest_above(l, p, isnan(fastest) ? 0.0 : fastest);
-    if (isnan(l->interval[1])) l->interval[1] = fastest; /* the fastest of all, held: no further is known */
-    return !(fastest > slowest);
-}
-
-/* The middle between decided arrivals; those between them are told. */
-static void conclude_found(session *s, const strike_projectile *p, strike_limit *l)
+/* Those between the ends that are not decided. */
+static void warn_of_undecided(session *s, const strike_projectile *p, const strike_limit *l)
 {
     int undecided = 0;
-    l->velocity = 0.5 * (l->interval[0] + l->interval[1]);
     for (int i = 0; i < l->arrivals; i++) {
         const double v = l->arrival[i].is.impact_velocity;
         undecided += v > l->interval[0] && v < l->interval[1] && l->arrival[i].is.class == STRIKE_UNFINISHED;
@@ -150,19 +118,17 @@ static void conclude(session *s, const case_study *c, const strike_projectile *p
     const char *above = p->piston ? "tears the plate" : "pierces";
     double arrival[THRESHOLD_MAX_SAMPLES + 1], residual[THRESHOLD_MAX_SAMPLES + 1];
     int n = 0;
-    bool monotone = r->monotone;
-    for (int k = 0; k < 2; k++) l->interval[k] = r->interval[k];
-    if (r->outcome == THRESHOLD_FOUND) monotone = set_ends(l, p);
+    const bool monotone = study_strike_limit_ends(l, class_above(p));
     if (r->outcome == THRESHOLD_FOUND && isnan(l->interval[0]))
         run_session_warn(s,
                          "limit_interval has no lower end: no arrival below %g m/s is decided; take a longer scene "
                          "(%s), or a lower study.velocity_low",
                          l->interval[1], p->piston ? "scene.end_time" : "strike.travel");
-    if (r->outcome == THRESHOLD_FOUND) conclude_found(s, p, l);
+    warn_of_undecided(s, p, l);
     if (r->outcome == THRESHOLD_BELOW)
         run_session_warn(s, "the limit velocity lies below study.velocity_low = %g m/s: that %s", c->velocity_low,
                          above);
-    if (r->outcome == THRESHOLD_ABOVE && !isnan(fastest_held(l, p, c->velocity_high)))
+    if (r->outcome == THRESHOLD_ABOVE && !isnan(study_strike_fastest_held(l, class_above(p), c->velocity_high)))
         run_session_warn(s, "the limit velocity lies above study.velocity_high = %g m/s: nothing up to there %s",
                          c->velocity_high, above);
     else if (r->outcome == THRESHOLD_ABOVE)

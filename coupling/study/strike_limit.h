@@ -21,7 +21,7 @@ typedef struct {
 } strike_arrival;
 
 typedef struct {
-    double velocity;    /* middle of the interval; NAN: not asked for, not in the range, or an end is not known [m/s] */
+    double velocity;    /* middle of the interval; NAN: not asked for, or an end is not known [m/s] */
     double interval[2]; /* NAN: that end is not known [m/s] */
     strike_fit fit;     /* of all that pierced */
     int arrivals;
@@ -32,6 +32,11 @@ typedef struct {
 
 /* STATUS_BAD_INPUT: the range of the search is empty. */
 status study_strike_limit_possible(const case_study *c);
+/* Fills interval and velocity from the arrivals, of which `above` lie above the limit.  false: the limit turns back, a
+ * faster arrival being held than one that is above. */
+bool study_strike_limit_ends(strike_limit *l, strike_class above);
+/* The fastest arrival up to a velocity that was really held; NAN: none [m/s]. */
+double study_strike_fastest_held(const strike_limit *l, strike_class above, double velocity);
 /* Searches; `first` is an arrival that is known already, or NULL.  study_strike_limit_free even on error, once the
  * session is closed. */
 status study_strike_limit_search(session *s, const study_case *of, const strike_projectile *p,

@@ -77,7 +77,7 @@ static const summary_key result_keys[] = {
     SUMMARY_NUMBER(
         strike_result, "limit_velocity", limit.velocity, "m/s",
         "middle between the fastest arrival that is stopped and the slowest that pierces, of a piston's water "
-        "that tears; null: not asked for, not in the range of the search, or one of the two is not known"),
+        "that tears; null: not asked for, or one of the two is not known"),
     SUMMARY_VECTOR(strike_result, "limit_interval", limit.interval, 2, "m/s", "those two; null: not known"),
     SUMMARY_NUMBER(strike_result, "recht_ipson_factor", limit.fit.factor, "1", "k in (A-2), of all that pierced"),
     SUMMARY_NUMBER(strike_result, "recht_ipson_limit", limit.fit.limit, "m/s", "v50 in (A-2)"),

@@ -41,6 +41,7 @@ static bool is_before(const target_ranking *r, const target_entry *a, const targ
 static bool is_told(const target_ranking *r, const target_entry *a, const target_entry *b)
 {
     if (r->by_limit) return a->limit_interval[0] >= b->limit_interval[1]; /* NAN: not told */
+    if (b->is.class == STRIKE_UNFINISHED) return false;                   /* which may yet hold */
     if (grade(&a->is) != grade(&b->is)) return true;
     return a->is.class == STRIKE_PIERCED &&
            b->is.residual_velocity - a->is.residual_velocity > ALIKE * b->is.impact_velocity;
