@@ -314,12 +314,19 @@ static void commands_say_what_they_need(void **state)
 static void what_must_fit_is_checked(void **state)
 {
     (void)state;
-    const char *sets[] = { "sites[1].position=5 m", "armature.leg_thickness=20 mm", "study.velocity_low=3 km/s",
-                           "particle.height=20 mm", "scene.coarse_cell=0.1 mm" };
-    char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, 5, 0);
+    const char *sets[] = { "sites[1].position=5 m",
+                           "armature.leg_thickness=20 mm",
+                           "study.velocity_low=3 km/s",
+                           "particle.height=20 mm",
+                           "scene.coarse_cell=0.1 mm",
+                           "armature.contact_length=5 m",
+                           "populations=[{density: 3 1/m, sizes: [{radius: 1 mm, share: 1}], radius_spread: 0.5}]" };
+    char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, 7, 0);
     has_line(e, "--set sites[1].position=5 m: sites[1].position = 5 m: must lie beyond barrel.start = 0.1 m");
     has_line(e, "--set armature.leg_thickness=20 mm: armature.leg_thickness = 20 mm: must not exceed half_bore\n");
     has_line(e, "--set study.velocity_low=3 km/s: study.velocity_low = 3 km/s: must lie below velocity_high\n");
+    has_line(e, "--set armature.contact_length=5 m: armature.contact_length = 5 m: must be shorter than the barrel\n");
+    assert_non_null(strstr(e, "populations[0]: either radius_median and radius_spread, or sizes\n"));
     has_line(e, "--set particle.height=20 mm: particle.height = 20 mm: must not exceed armature.half_bore\n");
     has_line(e, "--set scene.coarse_cell=0.1 mm: scene.coarse_cell = 0.1 mm: must not be smaller than the fine cell");
     free(e);

@@ -15,7 +15,7 @@
 static const char SUMMARY[] =
     "{\"crater_depth\": 0.00055, \"energy_error\": -2e-7, \"class\": \"gouge\", \"none\": null,"
     " \"numbers\": {\"failed_volume.rail\": {\"mean\": 2e-9}},"
-    " \"probes\": {\"push\": {\"peak\": 4.85e10}},"
+    " \"probes\": {\"push\": {\"peak\": 4.85e10}}, \"peak_temperature\": 380,"
     " \"scenes\": [{\"name\": \"a\", \"v\": 1500}, {\"name\": \"b\", \"v\": 1600}],"
     " \"ranking\": [{\"surface\": \"as it is\", \"v\": 700}, {\"surface\": \"warm rail\", \"v\": 640}]}";
 
@@ -73,6 +73,10 @@ static void test_numbers(void **state)
     assert_false(holds("key: 'scenes[-4294967295].v', value: 1.6 km/s, within: 0 m/s")); /* and so is this */
     assert_true(holds("key: 'numbers[failed_volume.rail].mean', value: 2 mm^3, within: 0 m^3"));
     assert_false(holds("key: 'scenes[c].v', value: 1.5 km/s, within: 1 km/s"));
+    assert_true(holds("key: peak_temperature, value: 100 degC, within: 10 degC")); /* a band is a difference */
+    assert_false(holds("key: peak_temperature, value: 100 degC, within: 1 degC"));
+    assert_true(holds("key: peak_temperature, value: 370 K, within: 11 degC"));
+    assert_true(holds("key: peak_temperature, value: 379.5 K, within: 1 degF"));
 }
 
 static void test_words(void **state)

@@ -234,6 +234,9 @@ static void check_lengths(case_reader *r)
          "must not be smaller than the fine cell, particle.radius / cells_per_radius");
     must(r, !(c->particle.height > p->half_bore), "particle", "height", "must not exceed armature.half_bore");
     must(r, !(c->barrel.start >= c->barrel.length), "barrel", "start", "must lie before the barrel's length");
+    const bool flies = c->given.armature && c->given.barrel;
+    must(r, !(flies && c->armature.contact_length >= c->barrel.length), "armature", "contact_length",
+         "must be shorter than the barrel");
     const bool searches = (r->options->needs & CASE_FOR_ONSET) && c->given.barrel;
     must(r, !(searches && c->study.velocity_high <= c->armature.velocity), "armature", "velocity",
          "the search would end below it: raise study.velocity_high");

@@ -76,7 +76,7 @@ static void need(case_reader *r, bool there, const tree_node *node, int k, const
 static void check_sizes(case_reader *r, const case_population *p, const tree_node *node, int k)
 {
     double sum = 0.0;
-    if (p->sizes.n > 0 && !isnan(p->radius_median))
+    if (p->sizes.n > 0 && (!isnan(p->radius_median) || !isnan(p->radius_spread)))
         case_errors_add(r->errors, node, "populations[%d]: either radius_median and radius_spread, or sizes", k);
     for (int i = 0; i < p->sizes.n; i++) {
         sum += p->sizes.item[i].share;

@@ -65,6 +65,17 @@ static bool needs_none(double value, const char *unit)
     return isinf(value) || (value == 0.0 && strcmp(unit, "1") == 0);
 }
 
+/* What 0 of a number's unit is in SI: 273.15 of degC. */
+static double zero_of(const comparison *c, const char *text)
+{
+    char *unit, zero[UNIT_SIZE + 2];
+    const char *own;
+    double value;
+    strtod(text, &unit);
+    snprintf(zero, sizeof zero, "0%s", unit);
+    return output_number_in_si(c->u, zero, &value, &own) ? value : 0.0;
+}
+
 /* due: the unit that the summary has it in, "" where nobody knows; then unit is that of the entry's numbers before this
  * one, NULL where none says it.  A band that is a part of the value (5 %) has none. */
 static status read_number(const comparison *c, const tree_node *entry, const char *key, const char *due, double *value,
@@ -78,11 +89,15 @@ static status read_number(const comparison *c, const tree_node *entry, const cha
     CHECK(node->kind == TREE_TEXT && output_number_in_si(c->u, node->text, value, &own), STATUS_BAD_INPUT,
           "%.200s:%d:%d: %s = %.60s: must be a number with a unit", c->path, node->line, node->column, key,
           node->kind == TREE_TEXT ? node->text : "a list");
-    if ((strcmp(key, "within") == 0 && strchr(node->text, '%')) || needs_none(*value, own)) return status_ok();
+    const bool band = strcmp(key, "within") == 0;
+    const double zero = band ? zero_of(c, node->text) : 0.0; /* a difference, of degrees too */
+    *value -= zero;
+    if ((band && strchr(node->text, '%')) || needs_none(*value, own)) return status_ok();
     if (due[0]) {
         CHECK(host_quantity_read(c->u, node->text, due, value, written).code == STATUS_OK, STATUS_BAD_INPUT,
               "%.200s:%d:%d: %s = %.60s: must be in a unit of %s, as the summary's number", c->path, node->line,
               node->column, key, node->text, due);
+        *value -= zero;
         return status_ok();
     }
     if (*value == 0.0) return status_ok();
