@@ -230,7 +230,8 @@ static void test_refused(void **state)
     refused(CASE " --set life.material=rail_steel_ma2020", "lacks its thermal expansion");
     refused(CASE " --set life.friction=0.3", "life.friction is that of load: wheel");
     refused(CASES "/rail_fatigue --set life.load=armature", "section `barrel` is missing");
-    refused(CASE " --set armature.contact_length='3 m'", "must be shorter than the armature's way");
+    refused(CASE " --set armature.contact_length='3 m'", "must be shorter than the barrel");
+    refused(CASE " --set barrel.length='0.11 m'", "must be shorter than the armature's way");
     refused(CASE " --set study.shots=20", "melts at 1356 K");
     assert_int_equal(run("check " CASE " --set study.shots=20"), 2); /* by the same test */
     assert_true(contains("err.txt", "--set study.shots=20: study.shots: shot "));
@@ -317,6 +318,19 @@ static void test_options(void **state)
     }
 }
 
+/* An armature that nothing moves says nothing of the rail's life. */
+static void test_never_moved(void **state)
+{
+    (void)state;
+    fresh_folder("still");
+    assert_int_equal(run("life " CASE " -o still/out" FEW "--set 'bank.charge=10 V'"), 0);
+    cJSON *s = summary_of("still/out");
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(s, "life_cause")), "not reached");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItem(s, "life")));
+    cJSON_Delete(s);
+    assert_true(contains("still/out/summary.json", "no place along the barrel is passed by a moving armature"));
+}
+
 /* used.yaml has the keys of its load alone, whatever the command; read back it is the same case. */
 static void test_used(void **state)
 {
@@ -383,7 +397,7 @@ int main(void)
         cmocka_unit_test(test_load),         cmocka_unit_test(test_moving_load),  cmocka_unit_test(test_signs),
         cmocka_unit_test(test_heat_alone),   cmocka_unit_test(test_shots),        cmocka_unit_test(test_refused),
         cmocka_unit_test(test_program),      cmocka_unit_test(test_options),      cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_surfaces),     cmocka_unit_test(test_used),
+        cmocka_unit_test(test_surfaces),     cmocka_unit_test(test_never_moved),  cmocka_unit_test(test_used),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1012,6 +1012,27 @@ static void test_hard_film(void **state)
     case_free(c);
 }
 
+/* The screen's number counts for the grains that a population is likely to leave, and for none where it has none. */
+static void test_screened_population(void **state)
+{
+    (void)state;
+    static const char *const density[] = { "0 1/m", "1e-6 1/m", "100 1/m" };
+    for (int k = 0; k < 3; k++) {
+        char population[200];
+        snprintf(population, sizeof population,
+                 "populations=[{density: %s, radius_median: 0.2 mm, radius_spread: 0.3}]", density[k]);
+        breech_case *c = changed_case((const char *const[]){ "sites=[]", population, "study.screen_low=1000", NULL });
+        onset_answer a;
+        OK(study(c, "screened", FORCE, &a));
+        assert_int_equal(counter.scenes, 0);
+        assert_int_equal(a.grains.unbacked, k > 0);
+        assert_true(k == 2 ? a.grains.screen_probability > 0.5 : a.grains.screen_probability < 1e-5);
+        assert_int_equal(a.result.verdict, k == 2 ? VERDICT_UNDECIDED : VERDICT_NO_GOUGING);
+        study_onset_answer_free(&a);
+        case_free(c);
+    }
+}
+
 /* Of grains alike some are too slow for scenes by a screen that was set too high: what the others' scenes say counts
  * for them too. */
 static void test_screened_with_others(void **state)
@@ -1355,6 +1376,7 @@ int main(void)
         cmocka_unit_test(test_moves),
         cmocka_unit_test(test_screened),
         cmocka_unit_test(test_leading_grain),
+        cmocka_unit_test(test_screened_population),
         cmocka_unit_test(test_hard_film),
         cmocka_unit_test(test_screened_with_others),
         cmocka_unit_test(test_contradicted),

@@ -374,7 +374,7 @@ static void explain(onset_answer *a)
     else if (a->grains.n == 0)
         say(r,
             "no scene was run: impact pressure over hardness lies below study.screen_low = %g everywhere, which alone "
-            "gives a probability of %.2g",
+            "gives a probability of %.3g",
             a->grains.c->study.screen_low, a->grains.screen_probability);
     else if (isfinite(r->threshold_velocity))
         say_threshold(r);

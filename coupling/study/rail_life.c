@@ -240,6 +240,10 @@ static void choose_weakest(rail_life_result *r)
         r->without_heat = cold->without_heat, r->without_heat_position = cold->position,
         r->without_heat_depth = cold->depth_without_heat;
     r->lasting = r->lasting && !weakest;
+    if (r->lasting)
+        r->cause = RAIL_LIFE_ENDLESS;
+    else if (!isnan(r->rayleigh_position))
+        r->cause = RAIL_LIFE_TOO_FAST;
     if (!weakest) return;
     r->life = weakest->life, r->first = weakest->first, r->position = weakest->position;
     r->depth = weakest->depth, r->angle = weakest->angle, r->range = weakest->range, r->cause = weakest->cause;
@@ -259,7 +263,7 @@ rail_life_result study_rail_life_none(void)
                                .depth = NAN,
                                .angle = NAN,
                                .range = NAN,
-                               .cause = RAIL_LIFE_ENDLESS,
+                               .cause = RAIL_LIFE_UNREACHED,
                                .depths = { NAN, NAN },
                                .without_heat = NAN,
                                .without_heat_position = NAN,

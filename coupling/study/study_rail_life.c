@@ -41,7 +41,8 @@ static const summary_key keys[] = {
         "or not known"),
     SUMMARY_VECTOR(
         rail_life_result, "life_quantiles", quantiles, 3, "1",
-        "shots by which that crack is there with 5, 50 and 95 %; null: the material has no fatigue_A_spread"),
+        "shots by which that crack is there with 5, 50 and 95 %; null: no place has a life, or the material no "
+        "fatigue_A_spread"),
     SUMMARY_NUMBER(rail_life_result, "life_first", first, "1", "shots until the first direction is cut there"),
     SUMMARY_NUMBER(rail_life_result, "life_position", position, "m", "of that place along the barrel, from the breech"),
     SUMMARY_NUMBER(rail_life_result, "life_depth", depth, "m", "of the crack, below the face"),
@@ -49,7 +50,8 @@ static const summary_key keys[] = {
                    "of the first direction cut at that depth, from the rail's direction towards the depth"),
     SUMMARY_NUMBER(rail_life_result, "life_range", range, "1", "largest strain range of a direction at that depth"),
     SUMMARY_CHOICE(rail_life_result, "life_cause", cause, study_rail_life_cause_names,
-                   "what strains the rail more there, each by itself: contact, heat, or none where it lasts for good"),
+                   "what strains the rail more there, each by itself: contact, heat; none where it lasts for good; "
+                   "where no place was judged, not reached, or faster than Rayleigh waves"),
     SUMMARY_VECTOR(rail_life_result, "crack_depths", depths, 2, "m",
                    "shallowest and deepest of the cracks of all places"),
     SUMMARY_NUMBER(rail_life_result, "life_without_heat", without_heat, "1",
@@ -57,7 +59,8 @@ static const summary_key keys[] = {
     SUMMARY_NUMBER(rail_life_result, "without_heat_position", without_heat_position, "m", "where that is"),
     SUMMARY_NUMBER(rail_life_result, "without_heat_depth", without_heat_depth, "m", "how deep"),
     SUMMARY_NUMBER(rail_life_result, "probability_cracked", probability, "1",
-                   "that a crack is there after study.shots; null: the material has no fatigue_A_spread"),
+                   "that a crack is there after study.shots; null: no place has a life, or the material no "
+                   "fatigue_A_spread"),
     SUMMARY_VALUE(rail_life_result, KEY_INTEGER, "shots", shots, "1",
                   "fired one after the other; more are like the last"),
     SUMMARY_VALUE(rail_life_result, KEY_INTEGER, "flights", flights, "1",
@@ -120,6 +123,8 @@ static void warn(session *s, const rail_life_result *r, const mpm_material *meta
             "from x = %.3g m on the armature is faster than Rayleigh waves in %s, %.0f m/s: no steady field, "
             "no life is known there",
             r->rayleigh_position, metal->name, r->rayleigh_speed);
+    if (r->cause == RAIL_LIFE_UNREACHED)
+        run_session_warn(s, "no place along the barrel is passed by a moving armature: the rail's life is not judged");
     if (r->life < 1.0) run_session_warn(s, "the rail cracks in the first shot: the law is asked beyond what it is for");
 }
 

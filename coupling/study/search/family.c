@@ -198,10 +198,12 @@ static status find_unbacked_populations(grain_families *f, const case_surface *s
         const case_population *p = &f->c->populations.item[i];
         population_sizes sizes;
         const case_site grain = grain_of(p);
+        const double any = -expm1(-p->density * (p->to - p->from)); /* that the barrel holds one */
         screen hit;
         TRY(study_population_sizes(p, f->c->study.smallest_radius, &sizes));
-        if (sizes.n == 0 || f->of_population[i] >= 0 || family_of_grain(f, &grain, p->aspect)) continue;
+        if (sizes.n == 0 || any == 0.0 || f->of_population[i] >= 0 || family_of_grain(f, &grain, p->aspect)) continue;
         TRY(softest_under(surface, p->aspect, &sizes, gouge_trace_fastest(f->flown), &hit));
+        hit.probability *= any;
         note_unbacked(f, &hit);
     }
     return status_ok();
