@@ -155,8 +155,9 @@ static double first_rate(const mpm *m)
     for (int i = 0; i < m->scene.bodies; i++) {
         const law *k = &m->laws[i];
         const double spin = mpm_build_spin_speed(&m->scene, i), *v = m->scene.body[i].velocity;
+        const double sound = mpm_law_start_sound(k);
         for (int q = 0; q < 3; q++)
-            fastest = fmax(fastest, (k->sound + fabs(v[q]) + spin) / m->grids.level[0].axes[q].smallest);
+            fastest = fmax(fastest, (sound + fabs(v[q]) + spin) / m->grids.level[0].axes[q].smallest);
     }
     return fastest;
 }

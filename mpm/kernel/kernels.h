@@ -3,6 +3,7 @@
 #ifndef BREECH_MPM_KERNELS_H
 #define BREECH_MPM_KERNELS_H
 
+#include "mpm/law/law_lanes.h"
 #include "mpm/memory/store.h"
 
 #ifndef BREECH_ISA
@@ -258,12 +259,16 @@ LANE_INLINE void least_domain(const mpm *m, const brick *b, const cell_grid *g, 
     }
 }
 
-/* What a point holds beyond the hottest state of its law [J/kg].  It goes with its motion's energy to the nodes, and
- * from them to all points around: heat is mixed in, as momentum is.  Else a point that stays in a sheared layer, a cell
- * thick whatever the cell, would be heated without bound. */
+/* Heat that a point holds beyond the hottest state of its law; what cold compression takes is none [J/kg].  It goes
+ * with the energy of the point's motion to the nodes, and from them to all points around: heat is mixed in, as momentum
+ * is.  Else a point that stays in a sheared layer, a cell thick whatever the cell, would be heated without bound. */
 LANE_INLINE vd heat_beyond(const law *k, const block *q, int lane)
 {
-    return vd_max(vd_load(&q->e[0][lane]) - k->e_hottest, vd_set(0));
+    const vd beyond = vd_load(&q->e[0][lane]) - k->e_hottest;
+    if (!vm_bits(vd_less(vd_set(0), beyond))) return vd_set(0);
+    const vd mu = vd_load(&q->rho[0][lane]) * k->volume0 - 1;
+    const vd cold = vd_where(vd_less(vd_set(0), mu), reference_energy(k, law_form_of(k, k->kernel), mu));
+    return vd_max(beyond - cold, vd_set(0));
 }
 
 /* Along axis k, for the part of the block that begins with `lane`. */

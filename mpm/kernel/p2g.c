@@ -254,7 +254,7 @@ typedef struct {
 /* A block's lines into the sums of its cell, which begin with its `first`.  A call, not inlined: gcc then takes the
  * sums as begun. */
 static __attribute__((noinline)) void one_block(const mpm *m, const brick *b, int index, const cell_work *c, bool first,
-                                                part_sums motion[PARTS], part_sums contact[PARTS])
+                                                part_sums momentum[PARTS], part_sums contact[PARTS])
 {
     const block *q = &m->blocks[index];
     const int mask = m->links[index].mask;
@@ -280,7 +280,7 @@ static __attribute__((noinline)) void one_block(const mpm *m, const brick *b, in
     }
 #pragma GCC unroll 4
     for (int part = 0; part < PARTS; part++) {
-        accumulate(motion[part], &n, part * WIDTH, &f, mask, first, &next);
+        accumulate(momentum[part], &n, part * WIDTH, &f, mask, first, &next);
         if (!c->meets) continue;
         lines on_surface;
         for (int left = mask; left; left &= left - 1)
@@ -291,10 +291,10 @@ static __attribute__((noinline)) void one_block(const mpm *m, const brick *b, in
 
 static void one_cell(const mpm *m, brick *b, int cell, const cell_work *c)
 {
-    part_sums motion[PARTS], contact[PARTS];
+    part_sums momentum[PARTS], contact[PARTS];
     for (int i = b->head[cell]; i >= 0; i = m->links[i].next)
-        one_block(m, b, i, c, i == b->head[cell], motion, contact);
-    add_to_brick(b->out, halo_index(cell), motion);
+        one_block(m, b, i, c, i == b->head[cell], momentum, contact);
+    add_to_brick(b->out, halo_index(cell), momentum);
     if (c->meets) add_to_brick(b->out_contact, halo_index(cell), contact);
 }
 

@@ -51,13 +51,15 @@ static double reference_at(const law *k, double mu)
     return NAN;
 }
 
-/* Along the isentrope K = K0 + (4 s - 1) p, so p = K0 [mu + (2 s - 1) mu^2 + b mu^3] and e = c0^2/2 mu^2.  Two points
- * in compression, where every law bends, tell the bend from b. */
+/* Along the isentrope K = K0 + (4 s - 1) p, so p = p0 + K0 [mu + (2 s - 1) mu^2 + b mu^3], and e = c0^2/2 mu^2 beside
+ * the work of the pressure at rest.  Two points in compression, where every law bends, tell the bend from b. */
 double mpm_law_slope(const law *k)
 {
     const double mu = 1e-4, e = 0.5 * k->K0 / k->rho0 * mu * mu;
-    const double once = mpm_law_pressure(k, mu, e) / (k->K0 * mu);
-    const double twice = mpm_law_pressure(k, 2 * mu, 4 * e) / (2 * k->K0 * mu);
+    const double rest = mpm_law_pressure(k, 0, 0),
+                 work = rest / k->rho0; /* a gas's own less that of what is around it */
+    const double once = (mpm_law_pressure(k, mu, e + work * (mu - mu * mu)) - rest) / (k->K0 * mu);
+    const double twice = (mpm_law_pressure(k, 2 * mu, 4 * e + 2 * work * (mu - 2 * mu * mu)) - rest) / (2 * k->K0 * mu);
     return 0.5 * ((2 * (once - 1) - 0.5 * (twice - 1)) / mu + 1);
 }
 

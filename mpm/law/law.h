@@ -81,6 +81,10 @@ double mpm_law_pressure(const law *k, double mu, double e);
 /* Shear modulus without pressure, at the reference temperature; 0 of a fluid [Pa] */
 double mpm_law_shear(const law *k);
 
+/* Velocity of sound of a body as it begins, hot or under pressure, where it is above that at rest by more than a tenth,
+ * for which the Courant number leaves room; else that at rest [m/s] */
+double mpm_law_start_sound(const law *k);
+
 /* s of us = c0 + s up for weak shocks, c0 = sqrt(K0/rho0), from the curvature of that equation at rest. */
 double mpm_law_slope(const law *k);
 

@@ -245,7 +245,7 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
         law k;
         TRY(mpm_law_make(&s->body[i], s, &k));
         TRY(count_body(s, i, &k, c));
-        const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
+        const double sound = mpm_law_start_sound(&k);
         const double spin = mpm_build_spin_speed(s, i);
         for (int q = 0; q < 3; q++)
             fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q]) + spin) / g->level[0].axes[q].smallest);

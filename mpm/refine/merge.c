@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Points that have come into coarser cells than they need.  Two sound ones side by side become one where their cell
  * allows a point of that length and is deep: each of the six cells that share a face with it holds points of the group,
- * failed ones too, or lies beyond the window.  In the other cells, those of a free surface, points outlive the cells
+ * failed ones too.  In the other cells, those of a free surface and of the window's ends, points outlive the cells
  * that they came from, so a surface stays as sharp as it was made.  A cell that meets a void with an edge or a corner
  * alone is deep. */
 #include "mpm/memory/store.h"
@@ -147,7 +147,7 @@ static bool is_deep(const mpm *m, const brick *b, int cell)
             const bool here = place >= 0 && place < BRICK;
             const int other = b->neighbour[SELF + way * step[k]];
             const int there = here ? cell + way * stride[k] : cell - way * (BRICK - 1) * stride[k];
-            if (!here && other < 0) continue; /* the window's end */
+            if (!here && other < 0) return false;
             if (!((here ? b : &m->bricks[other])->occupied >> there & 1)) return false;
         }
     return true;
