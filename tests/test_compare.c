@@ -579,7 +579,7 @@ static void test_screened_surface(void **state)
             assert_true(isnan(a.result.ranking[1].worse_than_best) && isfinite(a.result.ranking[1].gouges));
             assert_non_null(strstr(a.result.verdict, "with grains that no scene was run for, fewest gouges: skin"));
             assert_true(!skin->significant && a.result.ranking[1].tied == 1); /* by the screen's word alone */
-            assert_true(skin->probability_gouge == 0.01);
+            assert_true(skin->probability_gouge > 0.0099 && skin->probability_gouge <= 0.01); /* times a grain's */
         }
         study_compare_answer_free(&a);
         case_free(c);
