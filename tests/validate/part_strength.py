@@ -20,6 +20,7 @@ PTW = {"rail.material": "ofhc_copper_ptw"}  # a law for strain rates of small gr
 SMALL = [("%s mm" % radius, {"particle.radius": "%s mm" % radius, **PTW}) for radius in ("0.5", "0.1", "0.05", "0.02")] + [
     ("0.02 mm, " + title, {"particle.radius": "0.02 mm", **PTW, **settings})
     for title, settings in STRENGTH if title not in (STRENGTH[0][0], "armature x 0.5")]
+GENTLEST = {"armature.lead_angle": "5 deg", "armature.chamfer_height": "1 mm"}  # 11 mm long
 MAP = [
     STRENGTH[0],
     ("not pressed on", {"scene.contact_pressure": "0 Pa"}),
@@ -42,9 +43,16 @@ MAP = [
     ("grain of 0.1 mm, not pressed on", {"particle.radius": "0.1 mm", "scene.contact_pressure": "0 Pa"}),
     ("grain of 0.1 mm, lead face at 15 degrees", {"particle.radius": "0.1 mm", "armature.lead_angle": "15 deg"}),
     ("grain of 0.1 mm, rail of 450 K", {"particle.radius": "0.1 mm", "rail.temperature": "450 K"}),
+    ("grain of 0.1 mm, lead face at 5 degrees, 1 mm high", {"particle.radius": "0.1 mm", **GENTLEST}),
     ("grain of 0.05 mm", {"particle.radius": "0.05 mm"}),
     ("grain of 0.02 mm", {"particle.radius": "0.02 mm"}),
 ]
+
+TOGETHER = {  # lead face, armature, pressing: settings
+    "%s, %s, %s" % (lead, hot, press): {"armature.lead_angle": lead.replace("degrees", "deg"), "armature.temperature": hot,
+                                        "scene.contact_pressure": press}
+    for lead in ("30 degrees", "15 degrees") for hot in ("293 K", "450 K") for press in ("60 MPa", "0 MPa")}
+GRAINS = ("0.5 mm", "0.1 mm")
 
 
 def name_of(title):
@@ -89,6 +97,21 @@ def strength_small(runs):
 
 def inputs(runs):
     return table(runs, MAP)
+
+
+def inputs_together(runs):
+    """Both velocities of two grains: a row for lead face, armature's temperature and pressing at a time."""
+    rows = []
+    for title, settings in TOGETHER.items():
+        row_of = [title]
+        for grain in GRAINS:
+            summary = answer(runs, "%s, %s" % (title, grain), {"particle.radius": grain, **settings})
+            row_of += [speed(summary, "scratch"), speed(summary, "threshold")]
+        rows.append(row_of)
+    columns = [Column("lead face, armature, pressing")]
+    for grain in GRAINS:
+        columns += [Column("%s: %s from [m/s]" % (grain, what), 0.25, words=False) for what in ("scratches", "gouges")]
+    return [Table(columns, rows)], NOTE.replace("one input changed", "four inputs changed")
 
 
 NOTE = ("`breech onset cases/default_shot/pressed.yaml` without whole craters, with `study.resolution_error` and `resolution_above` 10 % and no "

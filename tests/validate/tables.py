@@ -50,6 +50,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "stripes": ("docs/validation/levels.md", part_stripes.stripes, 8, False),
     "levels-one": ("docs/validation/levels.md", part_levels.one_level, 30, False),
     "levels-paper": ("docs/validation/levels.md", part_levels.paper, 12, False),
+    "levels-shipped": ("docs/validation/levels.md", part_levels.shipped, 20, False),
     "cells-grow": ("docs/validation/levels.md", part_levels.growing, 25, False),
     "cells": ("docs/validation/growth.md", part_growth.cells, 90, False),
     "cells-fine": ("docs/validation/growth.md", part_growth.fine, 55, False),
@@ -81,6 +82,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "pairs": ("docs/validation/pairs.md", part_pairs.pairs, 60, False),
     "pairs-null": ("docs/validation/pairs.md", part_pairs.nulls, 1, True),
     "inputs": ("docs/validation/inputs.md", part_strength.inputs, 70, False),
+    "inputs-together": ("docs/validation/inputs.md", part_strength.inputs_together, 50, False),
     "initiators": ("docs/validation/initiators.md", part_initiators.initiators, 80, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
