@@ -43,6 +43,15 @@ static double energy_left(const mpm_ledger *l)
            l->energy_start;
 }
 
+/* At 1 atm at rest. */
+static mpm_material stiffened_gas(double density, double specific_heat, double gamma, double stiffness)
+{
+    mpm_material m = water();
+    m.eos = MPM_EOS_stiffened_gas, m.density = density, m.specific_heat = specific_heat;
+    m.gas_gamma = gamma, m.gas_stiffness = stiffness, m.gas_pressure = 101325, m.cavitation_pressure = -101325;
+    return m;
+}
+
 /* Water of `length` from x = 0 on, into which a wave comes at x = 0. */
 static mpm_body *column(mpm_scene *s, const mpm_material *m, double length, double beyond, double h)
 {
@@ -89,10 +98,7 @@ static void test_reflection(void **state)
 static void test_rest(void **state)
 {
     (void)state;
-    mpm_material m = water();
-    m.eos = MPM_EOS_stiffened_gas;
-    m.specific_heat = 157.6, m.gas_gamma = 7.415, m.gas_stiffness = 296.2e6, m.gas_pressure = 101325;
-    m.cavitation_pressure = -101325;
+    const mpm_material m = stiffened_gas(1000, 157.6, 7.415, 296.2e6);
     for (int k = 0; k < 2; k++) {
         SCENE_LOCAL(s);
         mpm_body *b = column(&s, &m, 10e-3, 0, 1e-3);
@@ -111,11 +117,8 @@ static void test_rest(void **state)
 static void test_wave_in_air(void **state)
 {
     (void)state;
-    mpm_material m = water();
+    const mpm_material m = stiffened_gas(1.2041, 717.65, 1.4, 0);
     double v[2];
-    m.eos = MPM_EOS_stiffened_gas, m.density = 1.2041;
-    m.specific_heat = 717.65, m.gas_gamma = 1.4, m.gas_stiffness = 0, m.gas_pressure = 101325;
-    m.cavitation_pressure = -101325;
     for (int k = 0; k < 2; k++) {
         SCENE_LOCAL(s);
         mpm_body *b = column(&s, &m, 10e-3, 0, 1e-3);

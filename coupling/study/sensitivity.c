@@ -33,7 +33,7 @@ static void change_friction(circuit_shot_config *c, double factor)
 }
 
 static const changed_input inputs[] = {
-    { "charge of the supplies", change_charge }, /* or what they give by themselves */
+    { "charge of the supplies", change_charge }, /* a coil's battery and a given current too */
     { "armature.mass", change_mass },
     { NULL, change_friction }, /* named by its keys: friction_keys */
     { "grain size", NULL },

@@ -50,8 +50,8 @@ static const summary_key keys[] = {
                    "of the first direction cut at that depth, from the rail's direction towards the depth"),
     SUMMARY_NUMBER(rail_life_result, "life_range", range, "1", "largest strain range of a direction at that depth"),
     SUMMARY_CHOICE(rail_life_result, "life_cause", cause, study_rail_life_cause_names,
-                   "what strains the rail more there, each by itself: contact, heat; none where it lasts for good; "
-                   "where no place was judged, not reached, or faster than Rayleigh waves"),
+                   "what strains the rail more there, each by itself: contact, heat; none: it lasts for good; not "
+                   "reached, faster than Rayleigh waves: why no place has a life"),
     SUMMARY_VECTOR(rail_life_result, "crack_depths", depths, 2, "m",
                    "shallowest and deepest of the cracks of all places"),
     SUMMARY_NUMBER(rail_life_result, "life_without_heat", without_heat, "1",

@@ -40,14 +40,6 @@ void mpm_point_law_free(mpm_point_law *k)
     free(k);
 }
 
-double mpm_law_start_sound(const law *k)
-{
-    const double volume = 1 / k->rho_start, shear = 4.0 / 3.0 * mpm_law_shear(k) * volume;
-    const double start =
-        sqrt(wave_speed_square(k, law_form_of(k, k->kernel), vd_set(volume), vd_set(k->p_start), vd_set(shear))[0]);
-    return start > 1.1 * k->sound ? start : k->sound;
-}
-
 static double fast(const mpm_point_law *k, const mpm_law_point *at)
 {
     return at->rate * k->law.inv_rate0;
