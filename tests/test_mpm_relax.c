@@ -27,6 +27,7 @@ static cell_of_points points(const mpm_material *m, const double d[POINTS], bool
     mpm_scene_default(&s);
     for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 4e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, 1e-3, 1e-3, 1e-3, 3e-3, 3e-3, 3e-3, m);
+    scene_box(&s, 3e-3, 1e-3, 1e-3, 4e-3, 3e-3, 3e-3, m);
     cell_of_points c = { scene_make(&s, 1), 0, 1 };
     const law *k = &c.solver->laws[0];
     const law_form f = law_form_of(k, k->kernel);
@@ -78,7 +79,8 @@ static void relax_once(cell_of_points *c, double share)
     const law *k = &c->solver->laws[0];
     step_of step = { .dt = share * 1e-3 / k->sound };
     for (int i = 0; i < 3; i++) step.h[i] = 1e-3, step.inv_h[i] = 1e3;
-    relax_blocks(c->solver, c->first, -1, k, &step);
+    brick b = { .head = { c->first } };
+    relax_cell(c->solver, &b, 0, &step);
 }
 
 static const double apart[POINTS] = { 1, 1.01, 1, 1.02, 1, 1, 1.45, 1, 1.01, 1, 1.3, 1 };
@@ -149,6 +151,29 @@ static void test_leaves(void **state)
     mpm_free(c.solver);
 }
 
+/* In a welded group a cell's chain may hold another body's block between two of a body: each is relaxed by its own
+ * points, all of them, once. */
+static void test_others_between(void **state)
+{
+    (void)state;
+    const mpm_material m = scene_copper();
+    cell_of_points alone = points(&m, apart, false), c = points(&m, apart, false);
+    block *between = &c.solver->blocks[2];
+    memcpy(between, &c.solver->blocks[1], sizeof *between);
+    for (int l = 0; l < LANES; l++) between->rho[0][l] *= 1.2;
+    const block was = *between;
+    c.solver->links[2] = c.solver->links[1];
+    c.solver->links[2].body = 1, c.solver->links[0].next = 2, c.solver->links[2].next = 1;
+    cell_of_points other = points(&m, apart, false);
+    memcpy(&other.solver->blocks[0], between, sizeof *between);
+    other.solver->links[0].mask = c.solver->links[2].mask, other.solver->links[0].next = -1;
+    relax_once(&alone, 0.25), relax_once(&c, 0.25), relax_once(&other, 0.25);
+    assert_memory_equal(alone.solver->blocks, c.solver->blocks, 2 * sizeof *between);
+    assert_memory_equal(other.solver->blocks, between, sizeof *between);
+    assert_memory_not_equal(between, &was, sizeof was);
+    mpm_free(alone.solver), mpm_free(c.solver), mpm_free(other.solver);
+}
+
 /* Dust among points of some hundred gigapascals: without the limit on a step its volume would become negative. */
 static void test_soft_among_dense(void **state)
 {
@@ -209,9 +234,8 @@ static void test_in_a_step(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_relaxes),
-        cmocka_unit_test(test_leaves),
-        cmocka_unit_test(test_soft_among_dense),
+        cmocka_unit_test(test_relaxes),        cmocka_unit_test(test_leaves),
+        cmocka_unit_test(test_others_between), cmocka_unit_test(test_soft_among_dense),
         cmocka_unit_test(test_in_a_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

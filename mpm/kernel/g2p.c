@@ -388,13 +388,16 @@ BLOCK_KERNEL(solid_block, LAW_SOLID)
 typedef int block_kernel(mpm *, brick *, int, const cell_grid *, const cell_limits *, const cell_nodes, block_run *);
 static block_kernel *const block_kernels[LAW_KERNELS] = { fluid_block, metal_block, solid_block };
 
-/* The blocks of a body in a cell, which begin with `first` and end before `end`. */
-static __attribute__((noinline)) void relax_blocks(mpm *m, int first, int end, const law *k, const step_of *step)
+/* A body's blocks in a cell, of which `first` is the first of the cell's chain; in a welded group other bodies' may lie
+ * between them. */
+static __attribute__((noinline)) void relax_blocks(mpm *m, int first, const step_of *step)
 {
+    const int body = m->links[first].body;
+    const law *k = &m->laws[body];
 #define PARTS_OF_BLOCKS                                 \
-    for (int i = first; i != end; i = m->links[i].next) \
+    for (int i = first; i >= 0; i = m->links[i].next)   \
         for (int lane = 0; lane < LANES; lane += WIDTH) \
-            if (!part_is_empty(m->links[i].mask, lane))
+            if (m->links[i].body == body && !part_is_empty(m->links[i].mask, lane))
     const law_form f = law_form_of(k, k->kernel);
     const double sound = k->sound * fmax(step->inv_h[0], fmax(step->inv_h[1], step->inv_h[2]));
     relax_sums sum = { .least = vd_set(HUGE_VAL), .most = vd_set(-HUGE_VAL), .softest = vd_set(HUGE_VAL) };
@@ -412,13 +415,18 @@ static __attribute__((noinline)) void relax_blocks(mpm *m, int first, int end, c
 #undef PARTS_OF_BLOCKS
 }
 
+static bool is_first_of_body(const mpm *m, int head, int index)
+{
+    int i = head;
+    while (m->links[i].body != m->links[index].body) i = m->links[i].next;
+    return i == index;
+}
+
 static void relax_cell(mpm *m, const brick *b, int cell, const step_of *step)
 {
-    for (int first = b->head[cell], end; first >= 0; first = end) {
-        const int body = m->links[first].body;
-        for (end = first; end >= 0 && m->links[end].body == body;) end = m->links[end].next;
-        if (m->laws[body].kernel != LAW_FLUID) relax_blocks(m, first, end, &m->laws[body], step);
-    }
+    for (int i = b->head[cell]; i >= 0; i = m->links[i].next)
+        if (m->laws[m->links[i].body].kernel != LAW_FLUID && is_first_of_body(m, b->head[cell], i))
+            relax_blocks(m, i, step);
 }
 
 static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const halo_nodes halo, block_run *run)
