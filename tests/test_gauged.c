@@ -61,6 +61,31 @@ static void test_gauged(void **state)
     run_script("read_gauged.py", BREECH_TESTS "/../python scene/gauged0");
 }
 
+/* Under a contact face of 13 grain radii the groove loses its power because the face leaves it: nobody knows whether it
+ * would grow.  Under a long one it does. */
+static void test_short_face(void **state)
+{
+    (void)state;
+    fresh_folder("face");
+    for (int i = 0; i < 2; i++) {
+        char command[1500], dir[40];
+        snprintf(dir, sizeof dir, "face/%d", i);
+        snprintf(command, sizeof command,
+                 "scene " GAUGED "-o %s --set output.snapshots=0 --set scene.stop_when_gauged=yes --set "
+                 "armature.head_thickness='2 mm' --set armature.chamfer_height='0.5 mm' --set armature.length='%s mm'",
+                 dir, i ? "3.4" : "8");
+        assert_int_equal(run(command), 0);
+        cJSON *s = summary_of(dir);
+        const double growth = number(s, "groove_growth");
+        print_message("growth %.3g a microsecond\n", 1e-6 * growth);
+        assert_true(i ? growth < 0.0 : growth > 0.0);
+        assert_text(s, "class", i ? "undecided" : "gouge");
+        const char *reason = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(s, "reason"));
+        if (i) assert_non_null(strstr(reason, "contact face's tail"));
+        cJSON_Delete(s);
+    }
+}
+
 /* Past its second gauge this groove takes more than four times the power it took at the first: it does without the
  * finest cells then, and everything before is the same. */
 static void test_cells_grow(void **state)
@@ -90,6 +115,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_gauged),
+        cmocka_unit_test(test_short_face),
         cmocka_unit_test(test_cells_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

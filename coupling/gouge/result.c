@@ -46,6 +46,15 @@ static void take_bodies(scene_result *r, const gouge_scene *s, const gouge_watch
     r->peak_pressure_rail_999 = w->rail.peak_pressure_999;
 }
 
+/* The power of a groove that the contact face leaves falls whatever it would have done. */
+static void leave_open(scene_result *r)
+{
+    r->class = DAMAGE_UNDECIDED;
+    snprintf(r->reason, sizeof r->reason,
+             "the groove does not grow, but the contact face's tail had passed the grain before that was judged, which "
+             "alone would do it: a longer contact face (armature.length), or study.judge: severity");
+}
+
 /* By the groove's growth between its gauges and its crater's shape at the second, whether the scene ended there or went
  * on: a whole scene and one of a search say the same.  What left no crater is `none`. */
 static void judge_by_growth(scene_result *r, const gouge_scene *s)
@@ -55,7 +64,6 @@ static void judge_by_growth(scene_result *r, const gouge_scene *s)
     const bool decided = fabs(excess) >= s->growth_scatter;
     const damage_class below = r->class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
     r->class = !decided ? DAMAGE_UNDECIDED : excess > 0.0 ? DAMAGE_GOUGE : below;
-    memset(r->reason, 0, sizeof r->reason); /* results are compared byte by byte */
     if (isnan(r->groove_growth))
         snprintf(r->reason, sizeof r->reason, "no groove that lived to its first gauge and left its grain");
     else
@@ -96,6 +104,11 @@ scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scen
 #include "coupling/scene/scene_work.def"
     r.wall_seconds = o->wall;
     r.threads = o->threads;
-    if (w->growth_decides) judge_by_growth(&r, s);
+    if (!w->growth_decides) return r;
+    memset(r.reason, 0, sizeof r.reason); /* results are compared byte by byte */
+    if (w->face_passed)
+        leave_open(&r);
+    else
+        judge_by_growth(&r, s);
     return r;
 }

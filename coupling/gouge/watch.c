@@ -122,6 +122,14 @@ static bool growth_decides(const gouge_watch *w, double time)
            gouge_groove_dies(s, &seen->gauges, &seen->front, time);
 }
 
+/* Had the contact face's tail left where the groove begins when that was judged?  A groove that is no longer pressed on
+ * all of its length takes less power. */
+static bool face_passed(const gouge_watch *w, double time)
+{
+    const double second = w->state.gauges.at[1];
+    return gouge_face_tail(w->scene, second > 0.0 ? second : time) > w->scene->grain_end;
+}
+
 /* A groove that grows is worth going on with. */
 static status finish(void *user, const mpm *m, bool *keep)
 {
@@ -138,6 +146,7 @@ static status finish(void *user, const mpm *m, bool *keep)
     w->growth = gouge_growth(&w->state.gauges, &w->state.front);
     w->front_speed = gouge_front_speed(&w->state.gauges);
     w->growth_decides = growth_decides(w, mpm_glance(m).time);
+    w->face_passed = w->growth_decides && !(w->growth > 0.0) && face_passed(w, mpm_glance(m).time);
     *keep = w->growth > 0.0;
     if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);
     return status_ok();

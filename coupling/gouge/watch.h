@@ -32,6 +32,7 @@ typedef struct {
     crater found;        /* owned */
     double growth;       /* gouge_growth [1/s] */
     bool growth_decides; /* followed to its second gauge, or until it died or the contact face had passed it */
+    bool face_passed;    /* it did not grow, but the contact face had passed where it begins: not known why */
     double front_speed;  /* gouge_front_speed [m/s] */
     double carried[RESULT_BODIES]; /* gouge_carried_volumes [m3] */
     double failed[RESULT_BODIES];  /* of each body, as computed [m3] */

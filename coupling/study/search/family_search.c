@@ -67,11 +67,12 @@ static scene_query query_of(const family_search *s, const family_wanted *w)
     return study_family_query(s->of, s->number - 1, &scene);
 }
 
-/* Does the groove grow?  Its shape does not count. */
+/* Does the groove grow?  Its shape does not count; one that dies has its scene's class, which leaves open whether it
+ * died of itself. */
 static damage_class class_by_growth(double folds, double scatter, damage_class class)
 {
     if (fabs(folds) < scatter) return DAMAGE_UNDECIDED;
-    return folds > 0.0 ? DAMAGE_GOUGE : class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
+    return folds > 0.0 ? DAMAGE_GOUGE : class == DAMAGE_GOUGE ? DAMAGE_SCRATCH : class;
 }
 
 threshold_sample study_family_sample(const case_onset *c, family_judge judge, const onset_scene *e)
