@@ -48,12 +48,15 @@ static site_jump strewn_jump(const onset_answer *a, int piece, double v)
     return all;
 }
 
-/* What populations are expected to take, piece by piece, as sites behind those of the list. */
+/* What populations are expected to take, piece by piece, as sites behind those of the list: in the middle of what of a
+ * piece the armature passes. */
 static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
 {
+    const double piece = a->grains.c->launcher.barrel.length / MC_PIECES, start = a->grains.c->launcher.barrel.start;
     int n = 0;
     for (int p = 0; p < MC_PIECES; p++) {
-        const double x = a->grains.c->launcher.barrel.length * (p + 0.5) / MC_PIECES;
+        const double x = 0.5 * (fmax(piece * p, start) + piece * (p + 1));
+        if (!(x > start)) continue;
         const site_jump taken = strewn_jump(a, p, gouge_trace_velocity(&a->flown, x));
         if (!(taken.impulse > 0.0 || taken.mass_loss > 0.0)) continue;
         site[n] = (case_site){ .position = x };
