@@ -220,6 +220,7 @@ static double last_found(const repeated_rail *r, mc_change change)
 
 static void forget_gouges(compare_entry *e)
 {
+    e->onset_position = NAN;
     e->gouges = e->last_gouges = e->gouged_volume = NAN;
     for (int k = 0; k < 2; k++) e->gouges_interval[k] = e->gouged_volume_interval[k] = NAN;
 }

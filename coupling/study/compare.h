@@ -34,7 +34,7 @@ typedef struct {
     double last_gouges;                    /* the same of the last shot [1] */
     double probability_gouge;              /* of a shot [1] */
     double better_than_next;               /* share of what may be true in which it gouges less than the next one [1] */
-    bool significant; /* that is at least STUDY_SIGNIFICANT, not by the screen alone; of the last: the former one's */
+    bool significant;       /* that is at least STUDY_SIGNIFICANT, not by the screen alone; of the last: false */
     double worse_than_best; /* share of what may be true in which the best gouges less than it; of the best NAN [1] */
     int tied;               /* rank of the best of its group, from which it cannot be told; from 1 */
     int scenes;             /* its own, those shared with surfaces before it not counted */

@@ -239,7 +239,8 @@ static void choose_weakest(rail_life_result *r)
     if (cold)
         r->without_heat = cold->without_heat, r->without_heat_position = cold->position,
         r->without_heat_depth = cold->depth_without_heat;
-    r->lasting = r->lasting && !weakest;
+    r->lasting = r->lasting && !weakest && isnan(r->rayleigh_position);
+    if (!weakest && !r->lasting) r->probability = NAN;
     if (r->lasting)
         r->cause = RAIL_LIFE_ENDLESS;
     else if (!isnan(r->rayleigh_position))
