@@ -235,6 +235,37 @@ static void test_beyond(void **state)
     free(r.family);
 }
 
+/* Below what the search looked at, where every scene gouged, it is as likely as not; where the armature has stopped
+ * nothing gouges. */
+static void test_below(void **state)
+{
+    (void)state;
+    rail r;
+    make_rail(&r, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    for (int k = 0; k < 9; k++) {
+        r.family->surface.size[k].velocity = r.family->surface.size[k].interval[0] = NAN;
+        r.family->surface.size[k].interval[1] = 1400.0;
+    }
+    mc_surface one = as_new(&r, 0, 1.0);
+    mc_result out = run(&one, 1, 20 * MC_WORLDS, 1);
+    const double all = 20.0 * study_population_share_from(&r.population, 1e-4) * LENGTH,
+                 sure = all * (1.0 - 1400.0 / MUZZLE);
+    assert_true(fabs(out.of[0].gouges / (0.5 * (all + sure)) - 1.0) < 0.1);
+    assert_true(fabs(out.of[0].gouges_interval[0] / sure - 1.0) < 0.2);
+    assert_true(fabs(out.of[0].gouges_interval[1] / all - 1.0) < 0.2);
+    study_mc_free(&out);
+    mc_along stops = { .v = { 0 } };
+    for (int k = 0; k <= MC_PLACES / 2; k++) stops.v[k] = 500.0;
+    one.along = &stops;
+    out = run(&one, 1, 20 * MC_WORLDS, 1);
+    assert_true(out.of[0].gouges > 0.0 && out.of[0].before[MC_BINS / 2] == out.of[0].probability);
+    double beyond = 0.0;
+    for (int k = MC_PIECES / 2 + 1; k < MC_PIECES; k++) beyond += out.strewn[k].gouges;
+    assert_true(beyond == 0.0);
+    study_mc_free(&out);
+    free(r.family);
+}
+
 /* ---- several surfaces ---- */
 
 /* Two surfaces alike meet the same grains: no difference at all.  A better one is never worse in any world. */
@@ -594,6 +625,7 @@ int main(void)
         cmocka_unit_test(test_band),
         cmocka_unit_test(test_one_size),
         cmocka_unit_test(test_beyond),
+        cmocka_unit_test(test_below),
         cmocka_unit_test(test_common_numbers),
         cmocka_unit_test(test_worlds_are_spread),
         cmocka_unit_test(test_own_error),

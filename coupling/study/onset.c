@@ -357,6 +357,21 @@ static void say_threshold(onset_result *r)
         say(r, "%.3f)", x[1]);
 }
 
+/* Neither end of the leading grain's interval is known: what its family's own search has seen. */
+static void say_nothing_known(onset_result *r, const grain_family *f, double radius)
+{
+    const surface_result *s = &f->surface;
+    const threshold_outcome is = s->reference.outcome;
+    const double own = f->plan.size[f->plan.reference];
+    if (!s->reference.monotone)
+        say(r, "no threshold was found: slow scenes gouge, the fastest does not");
+    else if (own != radius && (is == THRESHOLD_BELOW || is == THRESHOLD_ABOVE))
+        say(r, "no threshold was found for grains of %.3g mm: those of %.3g mm %s", 1e3 * radius, 1e3 * own,
+            is == THRESHOLD_BELOW ? "gouge in the slowest scene" : "do not gouge in the fastest scene");
+    else
+        say(r, "no threshold was found: no scene of the search decides");
+}
+
 static void explain(onset_answer *a)
 {
     onset_result *r = &a->result;
@@ -383,7 +398,7 @@ static void explain(onset_answer *a)
             f->surface.reference.outcome == THRESHOLD_ABOVE ? "no threshold was found" : "all scenes gouge",
             f->scatter.against);
     else if (isnan(r->threshold_interval[0]) && isnan(r->threshold_interval[1]))
-        say(r, "no threshold was found: no scene of the search decides");
+        say_nothing_known(r, f, radius);
     else if (isnan(r->threshold_interval[0]))
         say(r, "threshold at or below %.0f m/s, %s", r->threshold_interval[1] - allowance[1],
             spent ? "the slowest of study.max_scenes" : "where the search began");

@@ -20,15 +20,15 @@ static int step_of(double x, double first, double per, int n, double *f)
 
 const gouge_law_draw study_gouge_law_middle = { .in_band = 0.5 };
 
-/* A band without what may move it.  Below the search it gouges from the lowest velocity on; above it
- * the band is open: from the last velocity that is known not to gouge, or never. */
+/* A band without what may move it.  Where one side alone was seen it is open: below a velocity that is known to gouge,
+ * above one that is known not to. */
 static void band_at(const grain_family *f, double radius, double *low, double *high)
 {
     double band[2];
     study_surface_band(&f->surface, radius, band);
-    *low = isnan(band[0]) ? f->plan.search.low : band[0];
+    *low = isnan(band[0]) ? -INFINITY : band[0];
     *high = isnan(band[1]) ? INFINITY : band[1];
-    if (*high < *low) *low = *high = 0.5 * (*low + *high);
+    if (isfinite(*low) && *high < *low) *low = *high = 0.5 * (*low + *high);
 }
 
 static void tabulate_thresholds(const grain_family *f, gouge_law *out)
@@ -51,11 +51,13 @@ double study_gouge_law_threshold(const gouge_law *l, double ln_radius, gouge_law
     double f;
     const double moved = draw.alike * l->alike[draw.alike > 0.0] + draw.own * l->own;
     const int i = step_of(ln_radius, l->ln_first, l->per_ln, LAW_SIZES, &f);
-    if (isinf(l->low[i]) || isinf(l->low[i + 1])) return INFINITY;
-    const double low = l->low[i] + f * (l->low[i + 1] - l->low[i]);
-    if (isinf(l->high[i]) || isinf(l->high[i + 1])) return draw.in_band < 0.5 ? low + moved : INFINITY;
-    const double high = l->high[i] + f * (l->high[i + 1] - l->high[i]);
-    return low + draw.in_band * (high - low) + moved;
+    if (l->low[i] == INFINITY || l->low[i + 1] == INFINITY) return INFINITY; /* no scene: never */
+    const double low = l->low[i] + f * (l->low[i + 1] - l->low[i]),
+                 high = l->high[i] + f * (l->high[i + 1] - l->high[i]);
+    const bool below = isfinite(low), above = isfinite(high);
+    if (below && above) return low + draw.in_band * (high - low) + moved;
+    if (draw.in_band < 0.5) return below ? low + moved : 0.0;
+    return above ? high + moved : INFINITY;
 }
 
 double study_gouge_law_lowest(const gouge_law *l)

@@ -18,8 +18,9 @@ typedef struct {
 } gouge_mark;
 
 typedef struct {
-    double ln_first, per_ln;                        /* place of ln r in the tables below */
-    double low[LAW_SIZES + 1], high[LAW_SIZES + 1]; /* band of the threshold; INFINITY: never, or open above [m/s] */
+    double ln_first, per_ln; /* place of ln r in the tables below */
+    /* band of the threshold, infinite where it is open; low INFINITY: it never gouges [m/s] */
+    double low[LAW_SIZES + 1], high[LAW_SIZES + 1];
     double alike[2]; /* what may move the threshold of every surface alike, below and above [m/s] */
     double own;      /* what may move that of this one, either way (threshold.h) [m/s] */
     double v_first, per_v;
@@ -43,8 +44,8 @@ typedef struct {
 
 extern const gouge_law_draw study_gouge_law_middle;
 
-/* low + in_band (high - low) + the shares of what may move it [m/s].  Of an open band its low end in half of the draws,
- * INFINITY in the others: what was seen from one side alone is as likely as not. */
+/* low + in_band (high - low) + the shares of what may move it [m/s].  Of an open band its known end in half of the
+ * draws, 0 or INFINITY in the others: what was seen from one side alone is as likely as not. */
 double study_gouge_law_threshold(const gouge_law *l, double ln_radius, gouge_law_draw draw);
 gouge_mark study_gouge_law_mark(const gouge_law *l, double velocity);
 /* `is` and a share of what `to` has more than `from`. */

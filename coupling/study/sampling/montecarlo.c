@@ -141,7 +141,7 @@ static void shares_at(const lane *l, const grain *g, double share[MC_CHANGES])
 
 double study_mc_threshold_changed(double threshold, double cold, double hot, double share)
 {
-    if (isfinite(cold) && isfinite(hot)) return threshold * (1.0 + share * (hot / cold - 1.0));
+    if (cold > 0.0 && isfinite(cold) && isfinite(hot)) return threshold * (1.0 + share * (hot / cold - 1.0));
     return share < 0.5 || isinf(cold) == isinf(hot) ? threshold : hot;
 }
 
@@ -193,7 +193,7 @@ static bool meet(lane *l, const grain *g)
     const double v = velocity_at(l, g->x);
     double share[MC_CHANGES];
     shares_at(l, g, share);
-    if (v < threshold_at(l, g, share)) return false;
+    if (!(v > 0.0) || v < threshold_at(l, g, share)) return false;
     const double radius = exp(g->ln_r);
     const gouge_mark mark = mark_at(l, g, v, share);
     l->gouges++;

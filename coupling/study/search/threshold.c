@@ -262,25 +262,33 @@ static void warn(threshold_result *r, const char *format, ...)
     va_end(args);
 }
 
+/* Where a fast scene lies below the limit and a slow one above it the interval spans both; if no scene beyond the fast
+ * one, of whatever cells, lies above the limit, its upper end is not known. */
 static void check_monotone(threshold_result *r, double cells)
 {
-    double highest_lower = -INFINITY, lowest_upper = INFINITY;
+    double fast = -INFINITY, slow = INFINITY, fastest_upper = -INFINITY;
     for (int i = 0; i < r->samples; i++) {
         const threshold_sample *a = &r->sample[i];
-        if (a->cells_per_radius != cells) continue;
-        if (study_threshold_is_upper(a))
-            lowest_upper = fmin(lowest_upper, a->velocity);
-        else
-            highest_lower = fmax(highest_lower, a->velocity);
+        const bool upper = study_threshold_is_upper(a), counts = a->cells_per_radius == cells;
+        if (upper) fastest_upper = fmax(fastest_upper, a->velocity);
+        if (counts && upper) slow = fmin(slow, a->velocity);
+        if (counts && !upper) fast = fmax(fast, a->velocity);
     }
-    r->monotone = r->monotone && highest_lower < lowest_upper;
-    if (highest_lower < lowest_upper) return;
+    r->monotone = r->monotone && fast < slow;
+    if (fast < slow) return;
+    if (!isnan(r->interval[0])) r->interval[0] = fmin(r->interval[0], slow);
+    if (!isnan(r->interval[1])) r->interval[1] = fastest_upper > fast ? fmax(r->interval[1], fast) : NAN;
     warn(r,
-         "gouging turns back (%g cells a radius): above its limit at %g m/s, below it at %g m/s; the interval spans "
-         "both (is it the place of the grid? study.threshold_ensemble: 5 tells its scatter, more cells lessen it)",
-         cells, lowest_upper, highest_lower);
-    r->interval[0] = fmin(r->interval[0], lowest_upper);
-    r->interval[1] = fmax(r->interval[1], highest_lower);
+         "gouging turns back (%g cells a radius): above its limit at %g m/s, below it at %g m/s; %s "
+         "(is it the place of the grid? study.threshold_ensemble: 5 tells its scatter, more cells lessen it)",
+         cells, slow, fast,
+         isnan(r->interval[1]) ? "no faster one is above it, so the interval is open" : "the interval spans both");
+}
+
+static void check_turns(threshold_search *s)
+{
+    check_monotone(&s->result, s->plan->coarse);
+    if (s->cells != s->plan->coarse) check_monotone(&s->result, s->cells);
 }
 
 /* The interval of a threshold near v reaches further by what finer cells may change, by `least` at least. */
@@ -300,6 +308,7 @@ static void one_sided(threshold_search *s, const threshold_bracket *b)
     r->outcome = THRESHOLD_UNKNOWN;
     if (b->has_hi) r->bracket[1] = b->hi.velocity, r->interval[1] = decided_end(s, &b->hi);
     if (b->has_lo) r->bracket[0] = b->lo.velocity, r->interval[0] = decided_end(s, &b->lo);
+    check_turns(s);
     allow(r, s->plan, b->has_hi ? b->hi.velocity : b->has_lo ? b->lo.velocity : 0.0, 0.0);
     if (b->has_hi && b->hi.velocity == grid_low) r->outcome = THRESHOLD_BELOW;
     if (b->has_lo && b->lo.velocity == grid_high) r->outcome = THRESHOLD_ABOVE;
@@ -326,8 +335,7 @@ static void conclude(threshold_search *s, const threshold_bracket *b)
         warn(r, "no scene %s %g m/s decides: the interval ends at the %s that was computed", side ? "from" : "up to",
              r->bracket[side], side ? "fastest" : "slowest");
     }
-    check_monotone(r, s->plan->coarse);
-    if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
+    check_turns(s);
     allow(r, s->plan, r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));
 }
 
@@ -354,13 +362,15 @@ static double driven(const threshold_bracket *coarse, const threshold_bracket *f
     return NAN;
 }
 
-/* The coarse pass's answer, where the fine one was short of scenes: as far off as that has seen. */
+/* The coarse pass's answer, where the fine one was short of scenes: as far off as that has seen, and open on the side
+ * to which it has driven the root. */
 static void conclude_short(threshold_search *s)
 {
     const threshold_plan *p = s->plan;
     threshold_result *r = &s->result;
     r->shift = driven(&s->coarse, &s->refined);
     conclude(s, &s->coarse);
+    if (!isnan(r->shift)) r->interval[r->shift > 0.0] = NAN;
     warn(r, "study.max_scenes spent before %g cells a radius had a bracket: the threshold is that of %g cells", p->fine,
          p->coarse);
     if (isnan(r->shift)) return;

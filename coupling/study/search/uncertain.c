@@ -76,8 +76,8 @@ static status plan(const grain_families *g, const raised *from, double error, un
     from->raise(c, 1.0 + error);
     c->study.craters = 0;
     if (thresholds_of(g, &low, &high)) {
-        c->study.velocity_low = fmax(NEAR[0] * low, c->study.velocity_low);
-        c->study.velocity_high = fmin(NEAR[1] * high, c->study.velocity_high);
+        c->study.velocity_low = NEAR[0] * low;
+        c->study.velocity_high = NEAR[1] * high;
     }
     TRY(study_families_sort(c, g->flown, out->prefix, &out->grains));
     if (g->scratch) study_families_want_scratch(&out->grains);
@@ -93,17 +93,15 @@ static double place_of(const threshold_result *r)
     return isnan(r->bracket[0]) ? r->bracket[1] : r->bracket[0];
 }
 
-/* To where the raised input moves the threshold of a family. */
-static double moved_to(const uncertain_input *u, const grain_family *f, family_judge judge)
-{
-    grain_family *as = study_family_alike(&u->grains, f);
-    return as ? place_of(&study_family_surface(as, judge)->reference) : NAN;
-}
-
+/* How far the raised input moves the threshold of a family; where one of the two lies outside of its range, as far as
+ * that reached; NAN: both do, and nothing is known. */
 static double off(const uncertain_input *u, grain_family *f, family_judge judge)
 {
     const threshold_result *own = &study_family_surface(f, judge)->reference;
-    return moved_to(u, f, judge) - (own->velocity - own->more);
+    grain_family *as = study_family_alike(&u->grains, f);
+    const threshold_result *moved = as ? &study_family_surface(as, judge)->reference : NULL;
+    if (!moved || (isnan(own->velocity) && isnan(moved->velocity))) return NAN;
+    return place_of(moved) - place_of(own);
 }
 
 const char *study_uncertain_input(int k)
@@ -203,6 +201,22 @@ static void move_upper_ends(surface_result *s, double by)
     for (int k = 0; k < s->sizes; k++) s->size[k].interval[1] += by;
 }
 
+/* Of one size: a scratch's threshold is the gouge's at the most, and so are the ends of its interval. */
+static void keep_order_of_size(const surface_size *gouge, surface_size *scratch)
+{
+    if (scratch->velocity > gouge->velocity) scratch->velocity = gouge->velocity;
+    for (int side = 0; side < 2; side++)
+        if (scratch->interval[side] > gouge->interval[side]) scratch->interval[side] = gouge->interval[side];
+}
+
+/* A lower end goes down with what is allowed below it. */
+static void lower_end(threshold_result *r, double to)
+{
+    const double by = r->interval[0] - to;
+    if (!(by > 0.0)) return;
+    r->interval[0] = to, r->allowance[0] += by, r->of_cells[0] += by;
+}
+
 /* What gouges grows.  Where the scratch's threshold comes out above the gouge's, it is the gouge's, and its interval
  * ends with that at the latest.  Without growth nothing gouges, whatever its shape, and cells add to growth: as far up
  * as finer ones may raise the gouge's threshold they may raise the scratch's.  Where no groove was seen to grow, the
@@ -214,6 +228,9 @@ static void keep_order(grain_family *f)
     const double more = gouge->interval[1] - scratch->interval[1];
     const bool follows = isnan(scratch->bracket[1]) || gouge->allowance[1] > gouge->allowance[0];
     if (more < 0.0 || (more > 0.0 && follows)) move_upper_ends(&f->scratches, more);
+    lower_end(&f->scratches.reference, gouge->interval[0]);
+    for (int k = 0; k < f->scratches.sizes && k < f->surface.sizes; k++)
+        keep_order_of_size(&f->surface.size[k], &f->scratches.size[k]);
 }
 
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
