@@ -141,6 +141,72 @@ static void test_own(void **state)
     free(made);
 }
 
+/* The new case has the values of the old one, also where that is no longer there. */
+static void assert_begun(const char *from, const char *made, const char *moved)
+{
+    char line[300];
+    snprintf(line, sizeof line, "new %s --from '%s'", made, from);
+    assert_int_equal(run(line), 0);
+    char *old = used(from);
+    snprintf(line, sizeof line, "mv %s %s && mv '%s' gone && mkdir '%s'", made, moved, from, from);
+    assert_int_equal(system(line), 0);
+    char *now = used(moved);
+    if (!alike(old, now)) fail_msg("%s is not %s", made, from);
+    snprintf(line, sizeof line, "rmdir '%s' && mv gone '%s'", from, from);
+    assert_int_equal(system(line), 0);
+    free(old);
+    free(now);
+}
+
+/* Files of one name from two folders: both come. */
+static void test_same_names(void **state)
+{
+    (void)state;
+    fresh_folder("names");
+    assert_int_equal(
+        system("cd names && mkdir a b case && printf '0, 0\n1e-3, 1e5\n' >a/current.csv && "
+               "printf '0, 0\n1e-3, 2e5\n' >b/current.csv && printf '0, 0\n1e-3, 3e5\n' >case/current.csv && "
+               "cp b/current.csv b/case.yaml && "
+               "sed '/^current_profiles:/,/^ *$/d' '" CASES "/current_profile/case.yaml' >case/case.yaml && "
+               "printf 'current_profiles: [{file: ../a/current.csv}, {file: ../b/current.csv}, "
+               "{file: current.csv}, {file: ../b/case.yaml}, {file: ../a/current.csv}]\n' >>case/case.yaml"),
+        0);
+    assert_begun("names/case", "names/made", "names/moved");
+    assert_true(contains("names/moved/case.yaml", "{file: current.csv}, {file: current-2.csv}, {file: current-3.csv}, "
+                                                  "{file: case-2.yaml}, {file: current.csv}"));
+}
+
+/* A material's own base, and materials that one file of a case names and that lie beside another of it. */
+static void test_own_materials(void **state)
+{
+    (void)state;
+    fresh_folder("metals");
+    assert_int_equal(
+        system("cd metals && mkdir low top && sed 's/8960 kg/8000 kg/' '" CASES
+               "/materials/ofhc_copper.yaml' >low/ofhc_copper.yaml && printf 'name: mine\nbase: ofhc_copper\n"
+               "sources: {me: here}\nconstants: {hardness: {value: 1 GPa, source: me}}\n' >low/mine.yaml && "
+               "sed s/8000/7000/ low/ofhc_copper.yaml >top/ofhc_copper.yaml && "
+               "sed 's/^name: mine/name: other/' low/mine.yaml >top/other.yaml && "
+               "printf 'base: default_shot\nname: low\nrail: {material: other}\n' >low/case.yaml && "
+               "printf 'base: ../low\nname: top\narmature: {material: mine}\n' >top/case.yaml"),
+        0);
+    assert_begun("metals/top", "metals/made", "metals/moved");
+    assert_true(exists("metals/moved/low/ofhc_copper.yaml") && exists("metals/moved/ofhc_copper.yaml"));
+    assert_true(contains("metals/moved/low/case.yaml", "base: default_shot\n"));
+}
+
+/* What YAML would read as something else keeps its quotes. */
+static void test_quotes(void **state)
+{
+    (void)state;
+    fresh_folder("quotes");
+    assert_int_equal(system("cd quotes && mkdir top 'shot #2' && printf 'base: default_shot\nname: low\n' "
+                            ">'shot #2/case.yaml' && printf 'base: \"../shot #2\"\nname: top\n' >top/case.yaml"),
+                     0);
+    assert_begun("quotes/top", "quotes/made", "quotes/moved");
+    assert_true(contains("quotes/moved/case.yaml", "base: \"shot #2\"\n"));
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -179,9 +245,8 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_values),
-        cmocka_unit_test(test_kinds),
-        cmocka_unit_test(test_own),
+        cmocka_unit_test(test_same_values), cmocka_unit_test(test_kinds),         cmocka_unit_test(test_own),
+        cmocka_unit_test(test_same_names),  cmocka_unit_test(test_own_materials), cmocka_unit_test(test_quotes),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

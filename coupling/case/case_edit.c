@@ -26,7 +26,7 @@ size_t case_edit_line_end(const case_edits *e, int line)
 
 void case_edit_add(case_edits *e, size_t at, size_t skip, const char *format, ...)
 {
-    char text[2000];
+    char text[2 * TREE_MAX_TEXT + 100];
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
@@ -60,10 +60,27 @@ static size_t written_length(const case_edits *e, size_t at, const tree_node *va
     return end - at;
 }
 
+/* May it stand in a case without quotes, wherever that is? */
+static bool is_plain(const char *text)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-";
+    return text[0] && text[0] != '-' && text[strspn(text, plain)] == '\0';
+}
+
 void case_edit_value(case_edits *e, const tree_node *value, const char *text)
 {
     const size_t at = case_edit_place(e, value->line, value->column);
-    if (at < e->length) case_edit_add(e, at, written_length(e, at, value), "%s", text);
+    char put[2 * TREE_MAX_TEXT + 3];
+    size_t n = 0;
+    if (at >= e->length) return;
+    put[n++] = '"';
+    for (const char *c = text; *c && n < sizeof put - 3; c++) {
+        if (*c == '"' || *c == '\\') put[n++] = '\\';
+        put[n++] = *c;
+    }
+    put[n++] = '"';
+    put[n] = '\0';
+    case_edit_add(e, at, written_length(e, at, value), "%s", is_plain(text) ? text : put);
 }
 
 static int by_place(const void *a, const void *b)

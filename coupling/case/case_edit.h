@@ -26,7 +26,7 @@ size_t case_edit_line_end(const case_edits *e, int line);
 
 void case_edit_add(case_edits *e, size_t at, size_t skip, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-/* Another text in place of this value. */
+/* Another text in place of this value, in quotes where YAML wants them. */
 void case_edit_value(case_edits *e, const tree_node *value, const char *text);
 
 /* The changed text, malloc'ed; edits do not overlap, those at one place keep their order. */

@@ -86,50 +86,115 @@ static status file_copy(const char *from, const char *to)
     return s;
 }
 
-/* A file that a value names from its case's folder: the same name in the new one.  What lies elsewhere comes into the
- * new folder itself. */
-static status bring_file(case_edits *e, const tree_node *value, const char *folder, const char *to)
+/* A case and those that build on it, up to the new one. */
+typedef struct layer {
+    const tree_node *root;
+    const char *folder, *to, *as; /* where its file lies; where it comes, by which name */
+    const struct layer *above;
+} layer;
+
+static status same_bytes(const char *a, const char *b, bool *same)
 {
-    char from[CASE_START_SIZE], copy[CASE_START_SIZE];
-    TRY(path_in(from, folder, value->text));
+    char *x = NULL, *y = NULL;
+    size_t n = 0, m = 0;
+    status s = host_file_read(a, &x, &n);
+    if (s.code == STATUS_OK) s = host_file_read(b, &y, &m);
+    *same = s.code == STATUS_OK && n == m && memcmp(x, y, n) == 0;
+    free(x);
+    free(y);
+    return s;
+}
+
+/* name, or name-2, name-3, ... before its ending: the first that no other file of the new case has. */
+static status free_name(const layer *l, const char *from, const char *name, char out[TREE_MAX_TEXT + 20])
+{
+    enum { MOST = 100 };
+    const char *last = last_part(name), *dot = strrchr(last, '.');
+    const int stem = (int)(dot && dot > last ? (size_t)(dot - name) : strlen(name));
+    for (int k = 1; k < MOST; k++) {
+        char number[16] = "", copy[CASE_START_SIZE];
+        bool same = false;
+        if (k > 1) snprintf(number, sizeof number, "-%d", k);
+        snprintf(out, TREE_MAX_TEXT + 20, "%.*s%s%s", stem, name, number, name + stem);
+        TRY(path_in(copy, l->to, out));
+        if (strcmp(out, l->as) == 0) continue; /* the case itself, which is written last */
+        if (host_file_exists(copy)) TRY(same_bytes(from, copy, &same));
+        if (same || !host_file_exists(copy)) return status_ok();
+    }
+    return base_status_error(STATUS_BAD_INPUT, "%.300s: %d other files that the case names are called %.200s too", from,
+                             MOST - 1, last);
+}
+
+/* A file that a value names from its case's folder: the same name in the new one.  What lies elsewhere comes into the
+ * new folder itself.  Where another file has that name already, it gets one that is free. */
+static status bring_file(case_edits *e, const tree_node *value, const layer *l)
+{
+    char from[CASE_START_SIZE], copy[CASE_START_SIZE], name[TREE_MAX_TEXT + 20];
+    TRY(path_in(from, l->folder, value->text));
     if (value->text[0] == '/' || !host_file_exists(from)) return status_ok();
     const bool elsewhere = strstr(value->text, "..") != NULL;
-    const char *name = elsewhere ? last_part(value->text) : value->text;
-    if (elsewhere) case_edit_value(e, value, name);
-    TRY(path_in(copy, to, name));
+    TRY(free_name(l, from, elsewhere ? last_part(value->text) : value->text, name));
+    if (strcmp(name, value->text) != 0) case_edit_value(e, value, name);
+    TRY(path_in(copy, l->to, name));
     return file_copy(from, copy);
 }
 
-static status bring_material(const tree_node *value, const char *folder, const char *to)
+/* A material that lies in a folder, and below it what it builds on there. */
+static status bring_material(const char *material, const char *folder, const char *to, int depth)
 {
-    char name[BASE_PARAM_TEXT_SIZE + 8], from[CASE_START_SIZE], copy[CASE_START_SIZE];
-    if (!case_material_name_valid(value->text)) return status_ok();
-    snprintf(name, sizeof name, "%s.yaml", value->text);
+    char name[BASE_PARAM_TEXT_SIZE + 8], from[CASE_START_SIZE], copy[CASE_START_SIZE], *bytes = NULL;
+    size_t length = 0;
+    int line, column;
+    tree_node *root = NULL;
+    bool same = true;
+    if (!case_material_name_valid(material)) return status_ok();
+    snprintf(name, sizeof name, "%s.yaml", material);
     TRY(path_in(from, folder, name));
     TRY(path_in(copy, to, name));
-    return host_file_exists(from) ? file_copy(from, copy) : status_ok();
+    if (!host_file_exists(from) || depth == CASE_MAX_FILES) return status_ok();
+    if (host_file_exists(copy)) TRY(same_bytes(from, copy, &same));
+    CHECK(same, STATUS_BAD_INPUT, "%.300s: another file that the case names is called %.100s too", from, name);
+    TRY(file_copy(from, copy));
+    TRY(host_file_read(copy, &bytes, &length));
+    status s = host_tree_parse(bytes, length, &root, &line, &column);
+    free(bytes);
+    if (s.code == STATUS_BAD_INPUT) return status_ok(); /* whoever reads the case says what is wrong with it */
+    const tree_node *base = s.code == STATUS_OK ? host_tree_find(root, "base") : NULL;
+    if (base && base->kind == TREE_TEXT) s = bring_material(base->text, folder, to, depth + 1);
+    host_tree_free(root);
+    return s;
 }
 
-/* Whatever value names a file or a material beside the case; e NULL: materials alone. */
-static status bring_files(case_edits *e, const tree_node *node, const char *folder, const char *to)
+/* Those of all materials that the values name which lie in this folder. */
+static status bring_materials(const tree_node *node, const char *folder, const char *to)
 {
-    if (node->kind == TREE_TEXT) {
-        if (node->text[0] == '\0') return status_ok();
-        if (e) TRY(bring_file(e, node, folder, to));
-        return bring_material(node, folder, to);
-    }
+    if (node->kind == TREE_TEXT) return bring_material(node->text, folder, to, 0);
+    for (int k = 0; k < node->n; k++) TRY(bring_materials(node->item[k], folder, to));
+    return status_ok();
+}
+
+/* Whatever value names a file beside the case. */
+static status bring_files(case_edits *e, const tree_node *node, const layer *l)
+{
+    if (node->kind == TREE_TEXT) return node->text[0] ? bring_file(e, node, l) : status_ok();
     for (int k = 0; k < node->n; k++) {
         const bool base = node->kind == TREE_MAP && strcmp(node->key[k]->text, "base") == 0;
-        if (!base) TRY(bring_files(e, node->item[k], folder, to));
+        if (!base) TRY(bring_files(e, node->item[k], l));
     }
     return status_ok();
 }
 
-/* A case and those that build on it, up to the new one: their materials may lie beside it too. */
-typedef struct layer {
-    const tree_node *root;
-    const struct layer *above;
-} layer;
+/* What a case names beside itself.  A material that it names may lie beside those that build on it too, and theirs
+ * beside it. */
+static status bring_all(case_edits *e, const layer *l)
+{
+    TRY(bring_materials(l->root, l->folder, l->to));
+    for (const layer *a = l->above; a; a = a->above) {
+        TRY(bring_materials(a->root, l->folder, l->to));
+        TRY(bring_materials(l->root, a->folder, a->to));
+    }
+    return bring_files(e, l->root, l);
+}
 
 static int height(const layer *l)
 {
@@ -138,14 +203,16 @@ static int height(const layer *l)
 
 static status copy_case(const char *file, const char *to, const char *as, const char *name, const layer *above);
 
-/* What the case builds on, in a folder of its own inside the new one. */
-static status bring_base(case_edits *e, const layer *l, const char *folder, const char *to)
+/* What the case builds on, in a folder of its own inside the new one; a shipped case that it calls by its name stays
+ * what it is. */
+static status bring_base(case_edits *e, const layer *l)
 {
     const tree_node *base = host_tree_find(l->root, "base");
     if (!base || base->kind != TREE_TEXT) return status_ok();
     char path[CASE_START_SIZE], file[CASE_PATH_SIZE], where[CASE_PATH_SIZE], inner[CASE_START_SIZE], now[TREE_MAX_TEXT];
-    TRY(path_in(path, folder, base->text));
+    TRY(path_in(path, l->folder, base->text));
     TRY(case_file_of(path, file));
+    if (!host_file_exists(file) && case_file_shipped(base->text, file)) return status_ok();
     CHECK(height(l) < CASE_MAX_FILES, STATUS_BAD_INPUT, "%.300s: a chain of more than %d bases", file,
           CASE_MAX_FILES - 1);
     char *real = realpath(file, NULL);
@@ -154,7 +221,7 @@ static status bring_base(case_edits *e, const layer *l, const char *folder, cons
     const char *of = last_part(where), *as = last_part(real);
     snprintf(now, sizeof now, strcmp(as, "case.yaml") == 0 ? "%.400s" : "%.400s/%.400s", of, as);
     case_edit_value(e, base, now);
-    status s = path_in(inner, to, of);
+    status s = path_in(inner, l->to, of);
     if (s.code == STATUS_OK) s = copy_case(real, inner, as, NULL, l);
     free(real);
     return s;
@@ -187,9 +254,9 @@ static status copy_case(const char *file, const char *to, const char *as, const 
     case_edits e = { .text = bytes, .length = length };
     status s = host_tree_parse(bytes, length, &root, &line, &column);
     if (s.code == STATUS_OK) s = host_folder_make(to);
-    if (s.code == STATUS_OK) s = bring_files(&e, root, folder, to);
-    for (const layer *l = above; l && s.code == STATUS_OK; l = l->above) s = bring_files(NULL, l->root, folder, to);
-    if (s.code == STATUS_OK) s = bring_base(&e, &(layer){ root, above }, folder, to);
+    const layer own = { root, folder, to, as, above };
+    if (s.code == STATUS_OK) s = bring_all(&e, &own);
+    if (s.code == STATUS_OK) s = bring_base(&e, &own);
     if (s.code == STATUS_OK && name) make_own(&e, root, file, name);
     if (s.code == STATUS_OK) s = case_edits_apply(&e, &text, &length);
     if (s.code == STATUS_OK) s = host_file_write(path, text, length);
