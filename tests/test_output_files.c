@@ -9,6 +9,7 @@
 #include "coupling/host/stop.h"
 #include "coupling/host/table.h"
 #include "coupling/run/checkpoint.h"
+#include "coupling/run/scene_key.h"
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -300,13 +301,19 @@ static void foreign_checkpoint_is_refused(void **state)
 
     const checkpoint_key other_set = run_checkpoint_key_of("x86-64-v4", 99),
                          other_case = run_checkpoint_key_of("x86-64-v3", 98);
-    checkpoint_key other_version = key;
+    checkpoint_key other_version = key, other_build = key;
     strcpy(other_version.version, "9.9.9");
+    char *solver = strstr(other_build.version, run_solver_id()); /* the same version from other sources */
+    assert_non_null(solver);
+    solver[0] = solver[0] == '0' ? '1' : '0';
     const struct {
         const checkpoint_key *key;
         const char *word;
-    } foreign[] = { { &other_set, "instruction set" }, { &other_case, "another case" }, { &other_version, "version" } };
-    for (size_t i = 0; i < 3; i++) {
+    } foreign[] = { { &other_set, "instruction set" },
+                    { &other_case, "another case" },
+                    { &other_version, "version" },
+                    { &other_build, run_solver_id() } };
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
         const status s = run_checkpoint_read("check/a", foreign[i].key, &back);
         assert_int_equal(s.code, STATUS_BAD_INPUT);
         assert_non_null(strstr(s.text, foreign[i].word));

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/checkpoint.h"
-#include "coupling/host/version.h"
 
 #include "coupling/host/outdir.h"
+#include "coupling/host/version.h"
 #include "coupling/output/summary.h"
+#include "coupling/run/scene_key.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -36,7 +37,7 @@ checkpoint_key run_checkpoint_key_of(const char *instruction_set, uint64_t input
 {
     checkpoint_key key;
     memset(&key, 0, sizeof key); /* padding too: the key is compared and summed as bytes */
-    snprintf(key.version, sizeof key.version, "%s", host_version());
+    snprintf(key.version, sizeof key.version, "%s, solver %s", host_version(), run_solver_id());
     snprintf(key.instruction_set, sizeof key.instruction_set, "%s", instruction_set);
     key.inputs = inputs;
     return key;
@@ -72,9 +73,11 @@ status run_checkpoint_write(const char *path, const checkpoint_key *key, const c
 
 static status check_key(const char *path, const checkpoint_key *had, const checkpoint_key *want)
 {
-    CHECK(strncmp(had->version, want->version, sizeof had->version) == 0, STATUS_BAD_INPUT,
-          "%.200s: was written by version %.31s, this is %.31s; start over with --force", path, had->version,
-          want->version);
+    CHECK(
+        strncmp(had->version, want->version, sizeof had->version) == 0, STATUS_BAD_INPUT,
+        "%.200s: was written by version %.31s, this is %.31s: go on with the program that wrote it, or start over with "
+        "--force",
+        path, had->version, want->version);
     CHECK(strncmp(had->instruction_set, want->instruction_set, sizeof had->instruction_set) == 0, STATUS_BAD_INPUT,
           "%.200s: was written with the instruction set %.31s, this run uses %.31s; pin the former or start over with "
           "--force",

@@ -2,8 +2,8 @@
 /* Checkpoint: what a stopped run needs to go on bit for bit, in one file.
  *
  * Holds the study's own bookkeeping (opaque bytes: results so far, which scene is next) and, when stopped inside a
- * scene, the scene's image (scene_image).  A file made by another version, instruction set or case, or damaged in any
- * byte, is refused with words that say which. */
+ * scene, the scene's image (scene_image).  A file made by another version, another build of its solver, another
+ * instruction set or case, or damaged in any byte, is refused with words that say which. */
 #ifndef BREECH_COUPLING_CHECKPOINT_H
 #define BREECH_COUPLING_CHECKPOINT_H
 
@@ -15,7 +15,7 @@
 
 /* Who may read it: all three must agree. */
 typedef struct {
-    char version[32];         /* BREECH_VERSION */
+    char version[32];         /* host_version() and run_solver_id() */
     char instruction_set[32]; /* mpm_instruction_set() */
     uint64_t inputs;          /* hash of everything that decides the result: host_hash_bytes over used.yaml */
 } checkpoint_key;

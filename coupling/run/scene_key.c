@@ -1,19 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/scene_key.h"
 
-#include "coupling/run/checkpoint.h"
+#include "coupling/host/hash.h"
+#include "coupling/host/version.h"
 #include "coupling/run/solver_id.h" /* made by cmake/solver_id.cmake */
 #include "mpm/mpm.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+/* Of the version, the instruction set, and the inputs with the solver's id.  The bytes hashed are those of all versions
+ * so far: else no scene that was stored before is found again. */
 static uint64_t hash_of(const char *text, size_t bytes)
 {
     const uint64_t inputs =
         host_hash_bytes(host_hash_bytes(0, BREECH_SOLVER_ID, strlen(BREECH_SOLVER_ID)), text, bytes);
-    const checkpoint_key who = run_checkpoint_key_of(mpm_instruction_set(), inputs);
-    return host_hash_bytes(0, &who, sizeof who);
+    enum { TEXT = 32 };
+    char who[2 * TEXT + sizeof inputs] = { 0 };
+    snprintf(who, TEXT, "%s", host_version());
+    snprintf(who + TEXT, TEXT, "%s", mpm_instruction_set());
+    memcpy(who + 2 * (size_t)TEXT, &inputs, sizeof inputs);
+    return host_hash_bytes(0, who, sizeof who);
 }
 
 static status key_of(const case_impact *impact, const case_body_scene *bodies, scene_key *out)
