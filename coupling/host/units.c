@@ -17,6 +17,7 @@ enum { NUMBER_SIZE = 64, REMEMBERED = 1024 };
 typedef struct {
     char from[UNIT_SIZE], to[UNIT_SIZE]; /* "": the place is free */
     bool known;                          /* `from` is a unit */
+    int angle;                           /* power of the radian in `from` over that in `to` */
     cv_converter *converter;             /* NULL: they are of different kinds; owned */
 } conversion;
 
@@ -241,10 +242,20 @@ static bool is_inverse(cv_converter *converter)
     return !isfinite(cv_convert_double(converter, 0.0));
 }
 
+/* The power of the radian in a unit: udunits2 takes it for a pure number, and 50 Hz for 50 rad/s. */
+static int angle_of(const ut_unit *unit)
+{
+    char text[200];
+    if (!unit || ut_format(unit, text, sizeof text, UT_ASCII | UT_DEFINITION) >= (int)sizeof text) return 0;
+    const char *rad = strstr(text, "rad");
+    const int power = rad ? atoi(rad + 3) : 0;
+    return rad && power == 0 ? 1 : power;
+}
+
 static void conversion_find(const units *u, const char *from, const char *to, conversion *out)
 {
     ut_unit *a = unit_parse(u, from), *b = unit_parse(u, to);
-    *out = (conversion){ .known = a != NULL };
+    *out = (conversion){ .known = a != NULL, .angle = angle_of(a) - angle_of(b) };
     snprintf(out->from, sizeof out->from, "%s", from);
     snprintf(out->to, sizeof out->to, "%s", to);
     if (a && b && ut_are_convertible(a, b)) out->converter = ut_get_converter(a, b);
@@ -273,6 +284,10 @@ static status convert(const units *u, double number, const char *from, const cha
     const conversion *c = conversion_of(u, from, to);
     CHECK(c->known, STATUS_BAD_INPUT, "`%s` is not a known unit: write it in %s", from, to);
     CHECK(c->converter, STATUS_BAD_INPUT, "`%s` is not a unit of %s", from, to);
+    CHECK(c->angle == 0 || strstr(to, "rad"), STATUS_BAD_INPUT, "`%s` is not a unit of %s: it has an angle in it", from,
+          to);
+    CHECK(c->angle == 0, STATUS_BAD_INPUT, "`%s` is not a unit of %s: it does not say of which angle; write %s%s", from,
+          to, to, same(to, "rad/s") ? " or rpm" : "");
     *value = same(from, to) ? number : tidy(cv_convert_double(c->converter, number));
     return status_ok();
 }

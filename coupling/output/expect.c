@@ -42,10 +42,11 @@ static void list_path(const char *case_file, char path[OUTDIR_PATH_SIZE])
 /* The SI units of the numbers of summaries and cases; the first that the text's unit can be converted to is its own.
  * tests/test_output_expect.c looks for the unit of each. */
 static const char *const si_units[] = {
-    "1",   "m",     "s",      "kg",  "m/s",    "Pa",     "J",      "K",       "N",      "N s",     "m^2",   "m^3",
-    "A",   "V",     "W",      "ohm", "H/m",    "1/s",    "Hz",     "m/s^2",   "A^2 s",  "ohm/m",   "1/m",   "rad",
-    "1/K", "J/kg",  "rad/s",  "N/m", "H",      "F",      "1/m^2",  "ohm/m^3", "ohm m",  "Pa s",    "m^2/s", "V s",
-    "mol", "mol/s", "kg m^2", "J s", "kg/m^3", "kg/mol", "kg/m^2", "W/m/K",   "J/kg/K", "J/m^3/K", "1/Pa",  "kg/s",
+    "1",       "m",         "s",      "kg",     "m/s",    "Pa",    "J",      "K",       "N",      "N s",
+    "m^2",     "m^3",       "A",      "V",      "W",      "ohm",   "H/m",    "1/s",     "Hz",     "m/s^2",
+    "A^2 s",   "ohm/m",     "1/m",    "rad",    "1/K",    "J/kg",  "rad/s",  "N/m",     "H",      "F",
+    "1/m^2",   "ohm/m^3",   "ohm m",  "Pa s",   "m^2/s",  "V s",   "mol",    "mol/s",   "kg m^2", "J s",
+    "V s/rad", "N m s/rad", "kg/m^3", "kg/mol", "kg/m^2", "W/m/K", "J/kg/K", "J/m^3/K", "1/Pa",   "kg/s",
 };
 
 bool output_number_in_si(const units *u, const char *text, double *value, const char **unit)
