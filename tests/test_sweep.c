@@ -188,6 +188,8 @@ static void test_refused(void **state)
           "sweep.vary[1].key = bank.charge: sets what vary[0] sets" },
         { "{of: shot, vary: [{key: bank.charge, values: [8 kV]}, {key: 'bank[0].charge', values: [9 kV]}]}",
           "sets what vary[0] sets, bank.charge" },
+        { "{of: shot, vary: [{key: 'bank[0].charge', values: [8 kV]}, {key: bank, values: ['{charge: 9 kV}']}]}",
+          "sweep.vary[1].key = bank: sets what vary[0] sets, bank[0].charge" },
         { "{of: shot, vary: [{key: 'bank[0].charge', values: [8 kV]}, {key: 'bank[1].charge', values: [-9 kV]}]}",
           "bank has one entry: bank[0]" }, /* two groups are not the same */
         { "{of: shot, vary: [{values: [1]}]}", "sweep.vary[0].key is missing" },

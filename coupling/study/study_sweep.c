@@ -164,16 +164,18 @@ static status check_outputs(const case_sweep *w, const study *y)
     return status_ok();
 }
 
-/* Do two keys set the same value?  A list without a number is all of its entries. */
-static bool set_the_same(const char *a, const char *b)
+/* Does a key set what an earlier one has set, itself or a section around it?  A list without a number is all of its
+ * entries. */
+static bool sets_again(const char *a, const char *earlier)
 {
+    const char *b = earlier;
     for (;; a++, b++) {
         const size_t n = strcspn(a, ".["), m = strcspn(b, ".[");
         if (n != m || strncmp(a, b, n) != 0) return false;
         a += n, b += n;
         if (*a == '[' && *b == '[' && atoi(a + 1) != atoi(b + 1)) return false;
         a += strcspn(a, "."), b += strcspn(b, ".");
-        if (!*a || !*b) return *a == *b;
+        if (!*a || !*b) return !*a;
     }
 }
 
@@ -188,7 +190,7 @@ static status check_values(const case_sweep *w)
         CHECK(strncmp(v->key, "sweep.", 6) != 0, STATUS_BAD_INPUT,
               "sweep.vary[%d].key = %s: a sweep cannot vary itself", k, v->key);
         for (int i = 0; i < k; i++)
-            CHECK(!set_the_same(v->key, w->vary.item[i].key), STATUS_BAD_INPUT,
+            CHECK(!sets_again(v->key, w->vary.item[i].key), STATUS_BAD_INPUT,
                   "sweep.vary[%d].key = %s: sets what vary[%d] sets, %s", k, v->key, i, w->vary.item[i].key);
         CHECK(!w->together || v->values.n == w->vary.item[0].values.n, STATUS_BAD_INPUT,
               "sweep.vary[%d].values: %d values, vary[0] has %d; with `together: yes` all have as many", k, v->values.n,
