@@ -167,6 +167,45 @@ static void rules_of_overwriting(void **state)
     assert_int_equal(what, OUTDIR_NEW);
 }
 
+/* Files of others with our names stay without --force; those of a run that was killed go, a part of ours too. */
+static void foreign_files_stay(void **state)
+{
+    (void)state;
+    const outdir_options plain = { false, false }, force = { true, false }, resume = { false, true };
+    static const char *const names[] = { "report.html",
+                                         "summary.json",
+                                         "sweep.csv",
+                                         "history.h5",
+                                         "used.yaml",
+                                         "plot-mine.svg",
+                                         "scenes/a/scene-000001.hdf" };
+    outdir_state what;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        char path[100];
+        fresh_folder("run");
+        assert_int_equal(system("mkdir -p run/deep/scenes/a"), 0);
+        snprintf(path, sizeof path, "run/deep/%s", names[k]);
+        put(path, "name: mine");
+        const status s = open_and_close(plain, &what);
+        assert_int_equal(s.code, STATUS_BAD_INPUT);
+        assert_non_null(strstr(s.text, names[k]));
+        assert_int_equal(open_and_close(resume, &what).code, STATUS_BAD_INPUT);
+        assert_true(host_file_exists(path));
+        OK(open_and_close(force, &what));
+        assert_false(host_file_exists(path));
+    }
+    put("run/deep/used.yaml", "# Run by: breech shot\nname: a\n");
+    put("run/deep/report.html", "half a run's");
+    put("run/deep/history.h5.part", "x");
+    put("run/deep/mine.part", "x");
+    put("run/deep/scene-plan.hdf", "x");
+    OK(open_and_close(plain, &what));
+    assert_int_equal(files_in("run/deep", ""), 2);
+    put("run/deep/used.yaml.part", "# Run"); /* killed before its first file was whole */
+    OK(open_and_close(plain, &what));
+    assert_int_equal(files_in("run/deep", ""), 2);
+}
+
 static void one_run_at_a_time(void **state)
 {
     (void)state;
@@ -681,6 +720,7 @@ int main(void)
         cmocka_unit_test(unwritable_places_are_named),
         cmocka_unit_test(default_directory),
         cmocka_unit_test(rules_of_overwriting),
+        cmocka_unit_test(foreign_files_stay),
         cmocka_unit_test(one_run_at_a_time),
         cmocka_unit_test(directory_that_cannot_be),
         cmocka_unit_test(scene_folders),

@@ -165,31 +165,46 @@ static bool has_suffix(const char *name, const char *suffix)
     return n >= m && strcmp(name + n - m, suffix) == 0;
 }
 
+/* A name that a run gives its files, those half written too. */
 static bool is_ours(const char *name)
 {
-    static const char *const names[] = { OUTDIR_SUMMARY,    OUTDIR_HISTORY, OUTDIR_USED,
-                                         OUTDIR_CHECKPOINT, OUTDIR_REPORT,  OUTDIR_SWEEP };
+    static const char *const names[] = { OUTDIR_SUMMARY, OUTDIR_HISTORY, OUTDIR_CHECKPOINT, OUTDIR_REPORT,
+                                         OUTDIR_SWEEP,   OUTDIR_USED,    "scene.hdf.series" };
+    char whole[256];
+    const size_t n = strlen(name);
+    snprintf(whole, sizeof whole, "%.*s", (int)(has_suffix(name, ".part") ? n - strlen(".part") : n), name);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(name, names[i]) == 0) return true;
-    return has_suffix(name, ".part") || (strncmp(name, "plot-", 5) == 0 && has_suffix(name, ".svg")) ||
-           (strncmp(name, "scene", 5) == 0 && (has_suffix(name, ".hdf") || has_suffix(name, ".hdf.series")));
+        if (strcmp(whole, names[i]) == 0) return true;
+    const bool snapshot =
+        strncmp(whole, "scene-", 6) == 0 && strcmp(whole + 6 + strspn(whole + 6, "0123456789"), ".hdf") == 0;
+    return snapshot || (strncmp(whole, "plot-", 5) == 0 && has_suffix(whole, ".svg"));
 }
 
-/* Removes what a run wrote there and nothing else: an unknown file, and the folder that holds it, stay. */
-static void remove_ours(const char *dir, int depth)
+/* What a run wrote there and nothing else: an unknown file, and the folder that holds it, stay.  `only_look`: removes
+ * nothing.  *first: the first whole file of such a name, "" if there is none. */
+static void visit_ours(const char *dir, int depth, bool only_look, char first[OUTDIR_PATH_SIZE])
 {
     DIR *d = opendir(dir);
     if (!d) return;
     for (const struct dirent *e; (e = readdir(d));) {
         char path[OUTDIR_PATH_SIZE];
         if (e->d_name[0] == '.' || path_join(dir, e->d_name, path, sizeof path).code != STATUS_OK) continue;
-        if (is_ours(e->d_name)) unlink(path);
+        if (is_ours(e->d_name)) {
+            if (!first[0] && !has_suffix(path, ".part")) memcpy(first, path, sizeof path);
+            if (!only_look) unlink(path);
+        }
         if (depth == 1 || (depth == 0 && strcmp(e->d_name, "scenes") == 0)) {
-            remove_ours(path, depth + 1);
-            rmdir(path);
+            visit_ours(path, depth + 1, only_look, first);
+            if (!only_look) rmdir(path);
         }
     }
     closedir(d);
+}
+
+static void remove_ours(const char *dir, int depth)
+{
+    char first[OUTDIR_PATH_SIZE] = "";
+    visit_ours(dir, depth, false, first);
 }
 
 void host_outdir_status(const char *dir, char *out, size_t size)
@@ -206,6 +221,32 @@ void host_outdir_status(const char *dir, char *out, size_t size)
     free(text);
 }
 
+/* A run left it: its used.yaml, or its summary. */
+static bool is_of_a_run(const char *dir, const char *state)
+{
+    char path[OUTDIR_PATH_SIZE], *text;
+    if (strcmp(state, "done") == 0 || strcmp(state, "stopped") == 0 || strcmp(state, "failed") == 0) return true;
+    if (path_join(dir, OUTDIR_USED, path, sizeof path).code != STATUS_OK ||
+        host_file_read(path, &text, NULL).code != STATUS_OK)
+        return false;
+    const bool begins = strncmp(text, OUTDIR_RUN_BY, strlen(OUTDIR_RUN_BY)) == 0;
+    free(text);
+    return begins;
+}
+
+/* Files of others that happen to have the names of a run's stay. */
+static status check_foreign(const char *dir, const char *state)
+{
+    char first[OUTDIR_PATH_SIZE] = "";
+    if (is_of_a_run(dir, state)) return status_ok();
+    visit_ours(dir, 0, true, first);
+    CHECK(!first[0], STATUS_BAD_INPUT,
+          "%.300s: a run would replace it, and no run of Breech has left it there; -o names another directory, --force "
+          "removes files of such names",
+          first);
+    return status_ok();
+}
+
 static status decide(outdir *d, outdir_options options)
 {
     char state[16], checkpoint[OUTDIR_PATH_SIZE];
@@ -213,17 +254,17 @@ static status decide(outdir *d, outdir_options options)
     TRY(host_outdir_file(d, OUTDIR_CHECKPOINT, checkpoint, sizeof checkpoint));
     const bool finished = strcmp(state, "done") == 0, stopped = host_file_exists(checkpoint);
     d->state = OUTDIR_NEW;
-    if (options.force) {
-        remove_ours(d->path, 0);
-    } else if (options.resume) {
+    if (options.resume) {
         d->state = finished ? OUTDIR_FINISHED : stopped ? OUTDIR_RESUMED : OUTDIR_NEW;
-    } else {
+    } else if (!options.force) {
         CHECK(!finished, STATUS_BAD_INPUT,
               "%.300s: holds a finished result; --force overwrites it, -o names another directory", d->path);
         CHECK(!stopped, STATUS_BAD_INPUT, "%.300s: holds a stopped run; --resume goes on with it, --force starts over",
               d->path);
     }
-    if (d->state == OUTDIR_NEW) remove_ours(d->path, 0);
+    if (d->state != OUTDIR_NEW) return status_ok();
+    if (!options.force) TRY(check_foreign(d->path, state));
+    remove_ours(d->path, 0);
     return status_ok();
 }
 

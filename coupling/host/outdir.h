@@ -4,6 +4,7 @@
  * Rules: -o defaults to out/<case>.  A finished result is not overwritten without --force, a stopped one that holds a
  * checkpoint neither (resume it, or --force).  --resume of a finished result has nothing to do, --resume of nothing
  * starts anew: so a scheduler can always pass --resume.  Two runs never write to one directory at a time.
+ * In a directory that no run has left, files of these names are replaced with --force alone.
  * Files of a directory: the OUTDIR_ names below, scenes/<name>/scene-000012.hdf with scene.hdf.series, plots as .svg.
  */
 #ifndef BREECH_COUPLING_OUTDIR_H
@@ -19,6 +20,7 @@
 #define OUTDIR_SUMMARY "summary.json"
 #define OUTDIR_HISTORY "history.h5"
 #define OUTDIR_USED "used.yaml"
+#define OUTDIR_RUN_BY "# Run by: breech " /* used.yaml begins with it */
 #define OUTDIR_CHECKPOINT "checkpoint.bin"
 #define OUTDIR_REPORT "report.html"
 #define OUTDIR_SWEEP "sweep.csv" /* of `breech sweep`: its runs, in SI units */

@@ -32,7 +32,7 @@ static status used_text(const case_inputs *in, const char *command, char **text,
 {
     FILE *f = open_memstream(text, bytes);
     CHECK(f, STATUS_MEMORY, "no memory for used.yaml");
-    fprintf(f, "# Run by: breech %s\n", command);
+    fprintf(f, OUTDIR_RUN_BY "%s\n", command);
     const status done = case_inputs_write(in, f);
     const bool closed = fclose(f) == 0;
     TRY(done);
