@@ -275,6 +275,9 @@ def test_bodies(folder):
     front = run.probe("scene", "front")
     assert front["x"].shape[0] == len(front["time"]) and front["x"].ndim > 1
     assert "result" not in run.scene("scene")
+    stored, = breech.store(folder / "bodies" / "store")
+    assert "bodies:" in stored.case and stored.key == stored.path.stem
+    assert stored.outcome is stored.impulse is stored.mass_loss is None
 
 
 # ---- examples and page ----

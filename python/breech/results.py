@@ -153,15 +153,19 @@ def snapshot(path):
 
 
 class StoredScene:
-    """A file of a scene store: key, case (a case file of this scene), outcome (as in summary.json), columns, crater."""
+    """A file of a scene store: key, case (a case file of this scene), outcome (as in summary.json), columns, crater.
+
+    A scene of bodies has None for outcome, impulse and mass_loss, which are a grain's on the rail.
+    """
 
     def __init__(self, path):
         self.path, self.key = Path(path), Path(path).stem
         with h5py.File(path, "r") as f:
-            self.version, self.instruction_set, self.case = (
-                _text(f.attrs[name]) for name in ("version", "instruction_set", "case"))
-            self.outcome = json.loads(_text(f.attrs["outcome"]))
-            self.impulse, self.mass_loss = float(f.attrs["impulse_N_s"]), float(f.attrs["mass_loss_kg"])
+            self.version, self.instruction_set = (_text(f.attrs[name]) for name in ("version", "instruction_set"))
+            self.case = _text(f.attrs["case"] if "case" in f.attrs else bytes(f["case"][()]))
+            self.outcome = json.loads(_text(f.attrs["outcome"])) if "outcome" in f.attrs else None
+            self.impulse, self.mass_loss = (float(f.attrs[name]) if name in f.attrs else None
+                                            for name in ("impulse_N_s", "mass_loss_kg"))
             self.columns = Columns(f["scene"]) if "scene" in f else None
             self.crater = Crater(f["scene/crater"]) if "scene/crater" in f else None
 
