@@ -88,11 +88,11 @@ def test_text_is_yaml():
 
 def test_text_there_and_back():
     tree = {"name": "007 bond", "title": 'a "b": c # d', "flag": True, "no": "none", "n": 3, "x": 1e-7, "third": 1 / 3,
-            "q": breech.Quantity("1.5 0 -2e-3 km/s"), "empty": None, "list": [1, "2 mm", {"a": [True, {"b": 2.5}]}], "é": "µ",
+            "q": breech.Quantity("1.5 0 -2e-3 km/s"), "empty": None, "dash": "- a", "only": "-", "end": "...", "list": [1, "2 mm", {"a": [True, {"b": 2.5}]}], "é": "µ",
             "array": np.array([1.0, 2.5]), "bank": {"count": [3, 1], "charge": breech.Quantity(9, "kV")}}
     written = text.dump(tree)
     back, plain = text.parse(written), yaml.load(written, yaml.BaseLoader)
-    for key in ("flag", "no", "n", "q", "empty", "bank", "é", "title"):
+    for key in ("flag", "no", "n", "q", "empty", "bank", "é", "title", "dash", "only", "end"):
         assert back[key] == tree[key], key
     assert abs(back["third"] - 1 / 3) < 1e-15 and back["x"] == 1e-7 and back["array"] == [1, 2.5]
     assert str(back["name"]) == "007 bond" and plain["title"] == tree["title"] and plain["array"] == ["1", "2.5"]
@@ -186,6 +186,26 @@ def test_save_moves_the_case(folder):
     begun.save(folder / "begun")
     begun.save(folder / "begun")
     assert (folder / "begun" / "case.yaml").read_text() == "name: begun\n"
+
+
+def test_tables_of_current(folder):
+    """A profile's file is found when the list it stands in changes, in a case that is saved, and beside one that is."""
+    shipped = ROOT / "cases" / "current_profile"
+    case = breech.Case(shipped)
+    case["current_profiles[0].scale"] = 0.5
+    case.run("shot", folder / "table-half", progress=False)
+    deep = folder / ("a-long-name-of-a-folder-" * 5)
+    saved = case.save(deep / "table")
+    breech.run("shot", saved, folder / "table-saved", progress=False)
+    assert used(folder / "table-half") == used(folder / "table-saved") and breech.Case(saved) == case
+    assert breech.Case(shipped).copy().text().count("\n") == 1  # nothing is changed
+    shutil.copy(shipped / "current.csv", saved.parent / "mine.csv")
+    case["current_profiles"] = {"file": "mine.csv", "scale": 0.5}
+    case.run("shot", folder / "table-mine", progress=False)
+    case.save(saved)
+    assert "file: mine.csv" in saved.read_text()
+    breech.run("shot", saved, folder / "table-own", progress=False)
+    assert used(folder / "table-mine") == used(folder / "table-own") == used(folder / "table-half")
 
 
 def test_own_materials(folder):

@@ -126,7 +126,7 @@ static void recharged(void **state)
     const one_of_each s = samples();
     for (int kind = 0; kind < CIRCUIT_SUPPLY_KINDS; kind++) {
         const size_t size = circuit_supply_size((circuit_supply_kind_index)kind);
-        _Alignas(max_align_t) char units[2 * (sizeof(circuit_shot_module) + sizeof(circuit_supply_alternator))];
+        _Alignas(max_align_t) char units[2 * SUPPLY_BYTES];
         double e[2];
         assert_true(2 * size <= sizeof units);
         for (int i = 0; i < 2; i++) memcpy(units + (size_t)i * size, sample_of(&s, kind), size);

@@ -9,7 +9,8 @@
     _Static_assert(offsetof(type, count) == offsetof(circuit_supply_common, count) &&         \
                        offsetof(type, fire_at) == offsetof(circuit_supply_common, fire_at) && \
                        offsetof(type, position) == offsetof(circuit_supply_common, position), \
-                   "the struct of " #kind " begins with SUPPLY_COMMON");
+                   "the struct of " #kind " begins with SUPPLY_COMMON");                      \
+    _Static_assert(sizeof(type) <= SUPPLY_BYTES, "SUPPLY_BYTES hold the struct of " #kind);
 #include "circuit/supply/supply.def"
 #undef SUPPLY
 

@@ -92,8 +92,8 @@ typedef struct {
  */
 typedef struct {
     SUPPLY_COMMON
-    double scale;                    /* factor on the points' currents [1] */
-    char file[BASE_PARAM_TEXT_SIZE]; /* where the points came from; circuit/ does not open it */
+    double scale;   /* factor on the points' currents [1] */
+    char file[400]; /* a path: where the points came from; circuit/ does not open it */
     struct {
         int n;
         circuit_supply_point *item; /* n, times ascending from 0; borrowed until circuit_shot_create returns */

@@ -15,7 +15,7 @@
 #include "circuit/arrow.h"
 #include "circuit/shot.h"
 
-enum { SUPPLY_UNKNOWNS = ARROW_BLOCK, SUPPLY_BYTES = 160 };
+enum { SUPPLY_UNKNOWNS = ARROW_BLOCK, SUPPLY_BYTES = 512 };
 
 typedef enum { GATE_UNFIRED, GATE_WAITING, GATE_ON, GATE_BLOCKED } supply_gate;
 

@@ -14,8 +14,8 @@ static const double REST = 0.05; /* of the peak: a measured current may end with
 const base_param circuit_supply_profile_params[] = {
     PARAM_INT(circuit_supply_profile, count, 1, 1, 1e6, "factor on the current"),
     PARAM_DOUBLE(circuit_supply_profile, scale, "1", 1.0, 1e-6, 1e6, "factor on the currents of its points"),
-    PARAM_STRING(circuit_supply_profile, file, "",
-                 "table of time [s] and current [A], a row a point; looked for beside the case"),
+    PARAM_LONG_STRING(circuit_supply_profile, file, "",
+                      "table of time [s] and current [A], a row a point; looked for beside the case"),
     PARAM_DOUBLE(circuit_supply_profile, fire_at, "s", 0.0, 0.0, INFINITY,
                  "instant at which the profile's time is 0; beyond options.max_time = never"),
     SUPPLY_POSITION(circuit_supply_profile),

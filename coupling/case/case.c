@@ -120,7 +120,7 @@ static void load_materials(case_reader *r)
 
 static void profile_load(case_reader *r, circuit_supply_profile *p, const tree_node *entry)
 {
-    char path[CASE_PATH_SIZE + BASE_PARAM_TEXT_SIZE + 2], folder[CASE_PATH_SIZE];
+    char path[CASE_PATH_SIZE + sizeof p->file + 2], folder[CASE_PATH_SIZE];
     const tree_node *where = host_tree_find(entry, "file");
     if (!where) where = entry;
     if (p->file[0] == '\0') return;

@@ -62,6 +62,22 @@ def case_file(path, name=None):
     raise FileNotFoundError(f"{file}: there is no such case; shipped cases: {', '.join(names) or 'none found'}")
 
 
+def _with_tables(tree, rewrite):
+    """The tree with rewrite(path) for the path of every table of current, in current_profiles."""
+    profiles = tree.get("current_profiles")
+    if not isinstance(profiles, (dict, list)):
+        return tree
+    entries = []
+    for entry in profiles if isinstance(profiles, list) else [profiles]:
+        file = entry.get("file") if isinstance(entry, dict) else None
+        if isinstance(file, str):
+            entry = {**entry, "file": rewrite(file)}
+        elif isinstance(file, list):
+            entry = {**entry, "file": [rewrite(name) if isinstance(name, str) else name for name in file]}
+        entries.append(entry)
+    return {**tree, "current_profiles": entries if isinstance(profiles, list) else entries[0]}
+
+
 def _read_with_files(path, name=None, bases=0):
     """A case's tree with all that it builds on, and the files that it stands in, itself first."""
     path = case_file(path, name).resolve()
@@ -70,6 +86,7 @@ def _read_with_files(path, name=None, bases=0):
     tree = parse(path.read_text(encoding="utf-8"), str(path))
     if not isinstance(tree, dict):
         raise CaseError(f"{path} is no case: it must hold sections")
+    tree = _with_tables(tree, lambda file: str((path.parent / file).resolve()))
     base = tree.pop("base", None)
     if not base:
         return tree, [path]
@@ -85,6 +102,7 @@ class Case(dict):
     value is what would stand in the file.  Saved, a case that was read is that case as its base, and what was changed.
 
     path: the file where the case lives, which read or saved it last; materials lie beside it.  None: nowhere yet.
+    The file of a current profile that was read is an absolute path; one that is given, without /, lies beside the case.
     material_folder: a further folder with materials, looked into first; no part of what is saved.
     """
 
@@ -168,14 +186,17 @@ class Case(dict):
             other[key] = copy.deepcopy(value)
         return other
 
-    def _text_over(self, base, folder):
-        if base is None:
-            return dump(self)
-        return dump({"base": os.path.relpath(base, Path(folder).resolve()), **_changes(_read_with_files(base)[0], dict(self))})
+    def _text_over(self, base, folder, home):
+        """Tables of current are looked for from home where their path is not absolute, and named as seen from the folder."""
+        folder = Path(folder).resolve()
+        tree = _with_tables(dict(self), lambda file: str((home / file).resolve()))
+        if base is not None:
+            tree = {"base": os.path.relpath(base, folder), **_changes(_read_with_files(base)[0], tree)}
+        return dump(_with_tables(tree, lambda file: os.path.relpath(file, folder)))
 
     def text(self, folder="."):
         """The text of a case file on top of the file where the case lives, which it names as seen from the folder."""
-        return self._text_over(self.path, folder)
+        return self._text_over(self.path, folder, self.path.parent if self.path else Path.cwd())
 
     def save(self, path):
         """Writes the case file and returns its path: a file ending in .yaml, or case.yaml in a folder.
@@ -188,7 +209,7 @@ class Case(dict):
         file = path.resolve()
         # What was read is the base; a file in that chain which is now written over cannot be its own.
         below = self._files[self._files.index(file) + 1:] if file in self._files else self._files
-        text = self._text_over(below[0] if below else None, file.parent)
+        text = self._text_over(below[0] if below else None, file.parent, file.parent)
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
         self.path, self._files = file, below

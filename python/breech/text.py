@@ -12,7 +12,7 @@ FLAGS = {"yes": True, "no": False, "true": True, "false": False}
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 QUANTITY = re.compile(rf"({NUMBER}(?:\s+{NUMBER})*)\s*((?:(?:1/)?[A-Za-z%°µ][^\s,\[\]{{}}]*)(?:\s+[A-Za-z][^\s,\[\]{{}}]*)*)")
 KEY = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^']|'')*'|[^\s\[\]{},"'#&*!|>%@`?-][^#]*?)\s*:(?:\s+|$)""")
-PLAIN = re.compile(r"[A-Za-z0-9_.+-][\w .+*/^%-]*")
+PLAIN = re.compile(r"(?!-(?: |$)|---$|\.\.\.$)[A-Za-z0-9_.+-][\w .+*/^%-]*")
 
 
 class CaseError(ValueError):
