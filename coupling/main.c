@@ -84,10 +84,10 @@ static int complain_of(const case_inputs *in, status s)
 static status read_case(const options *o, const study *y, unsigned needs, case_inputs **in)
 {
     material_places at;
-    case_material_places_find(&at);
-    const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = y ? y->needs : needs };
     char *errors = NULL;
-    status s = case_inputs_read(o->line.subject, o->line.sets, o->line.n_sets, &how, in, &errors);
+    status s = case_material_places_find(&at);
+    const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = y ? y->needs : needs };
+    if (s.code == STATUS_OK) s = case_inputs_read(o->line.subject, o->line.sets, o->line.n_sets, &how, in, &errors);
     if (s.code == STATUS_OK) {
         s = study_prepare(*in);
         const study_case of = study_case_of(o, *in);
@@ -275,9 +275,9 @@ static status open_material(const char *name, material_sheet *sheet)
     material_places at;
     char *errors = NULL;
     const char *dirs[MATERIAL_MAX_DIRS + 1] = { "." }; /* as beside a case */
-    case_material_places_find(&at);
+    status s = case_material_places_find(&at);
     for (int i = 0; i < at.n; i++) dirs[i + 1] = at.dir[i];
-    const status s = case_material_sheet_open(name, dirs, at.n + 1, sheet, &errors);
+    if (s.code == STATUS_OK) s = case_material_sheet_open(name, dirs, at.n + 1, sheet, &errors);
     if (errors)
         fputs(errors, stderr);
     else
@@ -296,7 +296,8 @@ static int run_materials(const options *o)
 {
     material_places at;
     material_sheet sheet;
-    case_material_places_find(&at);
+    const status found = case_material_places_find(&at);
+    if (found.code != STATUS_OK) return complain(found);
     if (!o->line.subject) return complain(case_materials_print(&at, at.n, stdout));
     if (is_folder(o->line.subject)) {
         memmove(at.dir + 1, at.dir, (size_t)at.n++ * sizeof *at.dir); /* what its materials build on may lie there */
@@ -333,7 +334,7 @@ static int run_report(const options *o)
 static status start_read(const char *file)
 {
     material_places at;
-    case_material_places_find(&at);
+    TRY(case_material_places_find(&at));
     const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n };
     case_inputs *in = NULL;
     char *errors = NULL;

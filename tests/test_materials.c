@@ -285,17 +285,21 @@ static void names_cannot_leave_the_folder(void **state)
     }
 }
 
-/* The environment's folder comes first; what is not there is left out. */
+/* The environment's folder comes first; one that is not there is refused. */
 static void folders_are_found(void **state)
 {
     (void)state;
     material_places found, without;
     setenv("BREECH_MATERIALS", MATERIALS, 1);
-    case_material_places_find(&found);
+    assert_int_equal(case_material_places_find(&found).code, STATUS_OK);
     assert_true(found.n >= 1 && found.n <= MATERIAL_MAX_DIRS);
     assert_string_equal(found.dir[0], MATERIALS);
     setenv("BREECH_MATERIALS", MATERIALS "/nowhere", 1);
-    case_material_places_find(&without);
+    const status none = case_material_places_find(&without);
+    assert_int_equal(none.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(none.text, MATERIALS "/nowhere"));
+    setenv("BREECH_MATERIALS", "", 1); /* as not given */
+    assert_int_equal(case_material_places_find(&without).code, STATUS_OK);
     assert_int_equal(without.n, found.n - 1);
     unsetenv("BREECH_MATERIALS");
 }

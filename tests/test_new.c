@@ -11,7 +11,7 @@
 static char *used(const char *path)
 {
     material_places at;
-    case_material_places_find(&at);
+    OK(case_material_places_find(&at));
     const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n };
     case_inputs *in = NULL;
     char *errors = NULL, *text = NULL;

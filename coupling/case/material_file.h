@@ -85,7 +85,8 @@ status case_material_names(const char *dir, char ***names, int *n);
 void case_material_names_free(char **names, int n);
 
 /* Where the program looks beside the case's own folder: $BREECH_MATERIALS, the installation the program belongs to
- * (../share/breech/cases/materials from its folder), cases/materials of the source tree; those that are there. */
+ * (../share/breech/cases/materials from its folder), cases/materials of the source tree; those that are there.
+ * STATUS_BAD_INPUT: $BREECH_MATERIALS is given and is no folder. */
 enum { MATERIAL_MAX_DIRS = 3 };
 typedef struct {
     int n;
@@ -93,7 +94,7 @@ typedef struct {
                                              * of the user's */
     char installed[MATERIAL_PATH_SIZE];
 } material_places;
-void case_material_places_find(material_places *out);
+status case_material_places_find(material_places *out);
 
 /* Where the shipped cases are, folders of <name>/case.yaml: beside the program, in the source tree. */
 enum { CASE_MAX_FOLDERS = 2 };

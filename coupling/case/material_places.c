@@ -50,15 +50,19 @@ void case_folders_find(case_folders *out)
         if (host_folder_exists(all[k])) out->dir[out->n++] = all[k];
 }
 
-void case_material_places_find(material_places *out)
+status case_material_places_find(material_places *out)
 {
+    const char *own = getenv("BREECH_MATERIALS");
     char cases[MATERIAL_PATH_SIZE];
     beside_program(cases);
     snprintf(out->installed, sizeof out->installed, "%.*s/materials", MATERIAL_PATH_SIZE - 11, cases);
-    const char *const all[] = { getenv("BREECH_MATERIALS"), out->installed, BREECH_SOURCE_CASES "/materials" };
+    const char *const all[] = { own && own[0] ? own : NULL, out->installed, BREECH_SOURCE_CASES "/materials" };
     out->n = 0;
+    CHECK(!all[0] || host_folder_exists(all[0]), STATUS_BAD_INPUT,
+          "BREECH_MATERIALS=%.300s: there is no such folder of materials", all[0]);
     for (int k = 0; k < MATERIAL_MAX_DIRS; k++)
         if (all[k] && host_folder_exists(all[k])) out->dir[out->n++] = all[k];
+    return status_ok();
 }
 
 static int by_name(const void *a, const void *b)

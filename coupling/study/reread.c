@@ -28,7 +28,7 @@ static status read_with(const study_case *of, const study *y, int n, const char 
 {
     char *errors = NULL;
     material_places at;
-    case_material_places_find(&at);
+    TRY(case_material_places_find(&at));
     const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = y->needs };
     status s = case_inputs_read(of->in->path, set, n, &how, out, &errors);
     free(errors);

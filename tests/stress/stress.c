@@ -335,7 +335,7 @@ static void take_material(stock *s, int i)
 static bool open_stock(stock *s)
 {
     memset(s, 0, sizeof *s);
-    case_material_places_find(&s->at);
+    if (case_material_places_find(&s->at).code != STATUS_OK) return false;
     if (s->at.n == 0 || case_material_names(s->at.dir[0], &s->names, &s->n).code != STATUS_OK || s->n == 0)
         return false;
     s->melting = calloc((size_t)s->n, sizeof *s->melting);
