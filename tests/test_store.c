@@ -580,6 +580,25 @@ static void test_full_disk(void **state)
     case_free(c);
 }
 
+/* What the store cannot take is in the run's checkpoint: going on computes it no second time. */
+static void test_full_store(void **state)
+{
+    (void)state;
+    fresh_folder("fullstore");
+    breech_case *c = read_case(NULL);
+    const scene_record *out;
+    const scene_query q = query_at(c, 1400.0, "a");
+    session s = opened(c, "fullstore/one", "fullstore/store");
+    assert_int_equal(system("rm -rf fullstore/store && touch fullstore/store"), 0);
+    assert_int_equal(run_scenes_all(&s, &q, 1, &out).code, STATUS_IO);
+    assert_int_equal(ran.scenes, 1);
+    assert_int_equal(access("fullstore/one/checkpoint.bin", F_OK), 0);
+    OK(run_scenes_find(&s, &q, &out));
+    assert_non_null(out);
+    run_session_close(&s, false);
+    case_free(c);
+}
+
 /* A checkpoint never runs ahead of the history: rows before it would be lost for good. */
 static void test_history_first(void **state)
 {
@@ -693,21 +712,14 @@ static void test_folder_in_its_place(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_key_parts),
-        cmocka_unit_test(test_key_is_a_case),
-        cmocka_unit_test(test_file),
-        cmocka_unit_test(test_shared),
-        cmocka_unit_test(test_bodies),
-        cmocka_unit_test(test_force_keeps_it),
-        cmocka_unit_test(test_damaged),
-        cmocka_unit_test(test_damaged_is_said_once),
-        cmocka_unit_test(test_flipped_bits),
-        cmocka_unit_test(test_killed_writers),
-        cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_history_first),
-        cmocka_unit_test(test_left_over),
-        cmocka_unit_test(test_unusable),
-        cmocka_unit_test(test_folder_in_its_place),
+        cmocka_unit_test(test_key_parts),     cmocka_unit_test(test_key_is_a_case),
+        cmocka_unit_test(test_file),          cmocka_unit_test(test_shared),
+        cmocka_unit_test(test_bodies),        cmocka_unit_test(test_force_keeps_it),
+        cmocka_unit_test(test_damaged),       cmocka_unit_test(test_damaged_is_said_once),
+        cmocka_unit_test(test_flipped_bits),  cmocka_unit_test(test_killed_writers),
+        cmocka_unit_test(test_full_disk),     cmocka_unit_test(test_full_store),
+        cmocka_unit_test(test_history_first), cmocka_unit_test(test_left_over),
+        cmocka_unit_test(test_unusable),      cmocka_unit_test(test_folder_in_its_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

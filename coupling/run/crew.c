@@ -23,6 +23,7 @@ typedef struct errand {
     struct errand *put_off; /* AWAY: by the member that has it, for this one */
     h5_file *file;          /* FINISHED and not failed */
     status failed;          /* FINISHED: STATUS_OK if not */
+    status stored;          /* FINISHED: why the store has not taken it */
     history *rows;          /* of rank 0's own scenes */
     void *image;            /* laid aside by rank 0, to go on from; owned */
     scene_resume at;        /* image, when there is one */
@@ -127,12 +128,11 @@ static status forget_idle(crew *k)
 
 /* ---- messages ---- */
 
-static status errand_finish(crew *k, errand *e, h5_file *file)
+static void errand_finish(crew *k, errand *e, h5_file *file)
 {
     e->where = FINISHED;
     e->file = file;
-    if (!k->s->store[0]) return status_ok();
-    return run_store_put(k->s->store, &e->key, file);
+    if (k->s->store[0]) e->stored = run_store_put(k->s->store, &e->key, file);
 }
 
 static status write_file(const crew *k, const message *m)
@@ -177,7 +177,8 @@ static status read_outcome(crew *k, const message *m)
     }
     h5_file *file;
     TRY(host_h5_open_image(e->query.name, body, bytes, &file));
-    return errand_finish(k, e, file);
+    errand_finish(k, e, file);
+    return status_ok();
 }
 
 static status read_messages(crew *k)
@@ -369,7 +370,8 @@ static status run_own(crew *k, errand *e)
     const scene_work_how how = { s->run_scene, task, &host, s->lending, e->at };
     TRY(run_scene_work(&e->query, e->key.hash, &how, &r));
     TRY(run_scene_file_make(&r, &e->key, e->rows, &file));
-    return errand_finish(k, e, file);
+    errand_finish(k, e, file);
+    return status_ok();
 }
 
 static status compute_own(crew *k, errand *e)
@@ -500,12 +502,12 @@ status run_crew_take(crew *k, const scene_key *key, h5_file **out)
     errand *e = find(k, key->hash);
     *out = NULL;
     if (!e || e->where != FINISHED) return status_ok();
-    const status failed = e->failed;
+    const status failed = e->failed, stored = e->stored;
     if (failed.code != STATUS_OK) return failed;
     *out = e->file;
     e->file = NULL;
     mark_saved(k, NULL); /* the caller writes the next checkpoint, between scenes */
     errand_unlist(k, e);
     errand_free(e);
-    return status_ok();
+    return stored;
 }

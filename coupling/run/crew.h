@@ -27,7 +27,8 @@ void run_crew_free(crew *k, bool finished); /* NULL allowed */
 status run_crew_some(crew *k, const scene_query *query, int n);
 /* These may be wanted next, the likeliest first; any_order as in scenes.h. */
 status run_crew_ahead(crew *k, const scene_query *query, int n, bool any_order);
-/* *out: the file of a finished scene, now the caller's; NULL: not finished.  Of a scene that failed: its status. */
+/* *out: the file of a finished scene, now the caller's; NULL: not finished.  Of a scene that failed: its status; of
+ * one that the store has not taken, with its file: why. */
 status run_crew_take(crew *k, const scene_key *key, h5_file **out);
 
 /* The others: compute until rank 0 says it is over. */

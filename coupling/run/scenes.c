@@ -116,8 +116,9 @@ static status compute(session *s, const scene_query *q, const scene_key *key)
 {
     scene_record fresh;
     TRY(run_here(s, q, key, &fresh));
-    TRY(into_store(s, &fresh, key));
-    return keep(s, &fresh);
+    const status stored = into_store(s, &fresh, key);
+    TRY(keep(s, &fresh)); /* where the store's disk is full, too: the run goes on from here */
+    return stored;
 }
 
 /* ---- taking up what is there ---- */
@@ -137,10 +138,10 @@ static status take_come(session *s, const scene_query *q, const scene_key *key)
 {
     h5_file *file = NULL;
     if (!s->crew) return status_ok();
-    TRY(run_crew_take(s->crew, key, &file));
+    const status done = run_crew_take(s->crew, key, &file);
     const status taken = file ? take_file(s, q, key, file, false) : status_ok();
     host_h5_close(file);
-    return taken;
+    return done.code == STATUS_OK ? taken : done;
 }
 
 /* Snapshots are not stored: a run that was started over makes those that it has removed again. */
