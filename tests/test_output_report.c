@@ -667,6 +667,35 @@ static void what_is_no_run_is_refused(void **state)
     assert_int_equal(report_write("report/nowhere", study_report_kind).code, STATUS_BAD_INPUT);
 }
 
+/* Summaries changed by hand: runs without inputs, a unit with a tag in it. */
+static void a_changed_summary_is_shown(void **state)
+{
+    (void)state;
+    static const char *const sweeps[] = {
+        "[null, {\"inputs\": {\"a\": 1}, \"outputs\": {\"x\": 2}}]",
+        "[{\"inputs\": {\"a\": 1}, \"outputs\": {\"x\": 2}}, null, {\"outputs\": {\"x\": 3}}]",
+        "[{\"outputs\": {\"x\": 2}, \"errors\": {\"x\": 2}}, {\"inputs\": [1, 2]}]",
+        "[{\"inputs\": [1], \"outputs\": [2]}]",
+    };
+    char text[500], *page = NULL;
+    fresh_folder("report");
+    for (size_t i = 0; i < sizeof sweeps / sizeof *sweeps; i++) {
+        snprintf(text, sizeof text,
+                 "{\"kind\": \"sweep\", \"status\": \"done\", \"of\": \"scene\", \"resolution\": \"a\", \"sweep\": %s}",
+                 sweeps[i]);
+        OK(host_file_write("report/summary.json", text, strlen(text)));
+        OK(report_write("report", study_report_kind));
+    }
+    static const char probe[] = "{\"kind\": \"bodies\", \"status\": \"done\", \"probes\": {\"p\": {\"kind\": \"box\", "
+                                "\"quantity\": \"mass\", \"unit\": \"<script>\", \"peak\": 1.5}}}";
+    OK(host_file_write("report/summary.json", probe, strlen(probe)));
+    OK(report_write("report", study_report_kind));
+    OK(host_file_read("report/report.html", &page, NULL));
+    assert_non_null(strstr(page, "&lt;script&gt;"));
+    assert_null(strstr(page, "<script>"));
+    free(page);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -681,6 +710,7 @@ int main(void)
         cmocka_unit_test(a_rim_that_is_not_the_highest_is_explained),
         cmocka_unit_test(failed_run_has_a_page_too),
         cmocka_unit_test(what_is_no_run_is_refused),
+        cmocka_unit_test(a_changed_summary_is_shown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "coupling/host/numbers.h"
 #include "coupling/output/summary.h"
 #include "coupling/report/report_relief.h"
+#include "coupling/report/report_svg.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,15 +20,25 @@ static const cJSON *probes_of(const page *p)
 
 /* ---- the table ---- */
 
+/* As report_svg_escaped writes it. */
+static void escape(const char *text, char *out, size_t size)
+{
+    memset(out, 0, size);
+    FILE *f = fmemopen(out, size - 1, "w");
+    if (!f) return;
+    report_svg_escaped(f, text);
+    fclose(f);
+}
+
 /* A number of the probe's unit with the prefix that reads well. */
 static void add_quantity(report_table *t, double x, const char *unit)
 {
     double factor;
-    char value[REPORT_VALUE_SIZE], text[2 * REPORT_VALUE_SIZE];
+    char value[REPORT_VALUE_SIZE], html[200], text[REPORT_VALUE_SIZE + sizeof html + 20];
     const char *prefix = report_chart_prefix(fabs(x), unit, &factor);
     report_value_plain(x / factor, value);
-    snprintf(text, sizeof text, "%.60s%s%s%.30s", value, isfinite(x) ? "&nbsp;" : "", isfinite(x) ? prefix : "",
-             isfinite(x) && strcmp(unit, "1") != 0 ? unit : "");
+    escape(isfinite(x) && strcmp(unit, "1") != 0 ? unit : "", html, sizeof html);
+    snprintf(text, sizeof text, "%.60s%s%s%s", value, isfinite(x) ? "&nbsp;" : "", isfinite(x) ? prefix : "", html);
     report_table_html(t, text);
 }
 

@@ -14,6 +14,13 @@ static const cJSON *member(const cJSON *object, const char *key)
     return cJSON_GetObjectItemCaseSensitive(object, key);
 }
 
+/* The first entry of an object of a run; NULL of a summary that was changed by hand and has none there. */
+static const cJSON *first_of(const cJSON *run, const char *object)
+{
+    const cJSON *of = member(run, object);
+    return cJSON_IsObject(of) ? of->child : NULL;
+}
+
 static const char *unit_of(const page *p, const char *key)
 {
     return report_text(report_page_list(p, "units"), key);
@@ -31,8 +38,7 @@ void report_sweep_head(const page *p)
     fprintf(p->out, "<p class=\"verdict\">%d runs of <code>breech ", n);
     report_svg_escaped(p->out, strcmp(of, "bodies") == 0 || strcmp(of, "ensemble") == 0 ? "scene" : of);
     fputs("</code> that differ in ", p->out);
-    cJSON_ArrayForEach(item, member(runs->child, "inputs"))
-    {
+    for (item = first_of(runs->child, "inputs"); item; item = item->next) {
         fputs(k++ ? ", <code>" : "<code>", p->out);
         report_svg_escaped(p->out, item->string);
         fputs("</code>", p->out);
@@ -82,14 +88,12 @@ static void run_table(const page *p, const char *what)
     int n = 0;
     report_table t;
     report_table_begin(&t, p->out);
-    cJSON_ArrayForEach(item, member(runs->child, "inputs"))
-    {
+    for (item = first_of(runs->child, "inputs"); item; item = item->next) {
         if (n == REPORT_COLUMNS - 1) break;
         column[n] = (run_column){ "inputs", item->string, 1.0 };
         add_column(p, &t, &column[n++], unit_of(p, item->string));
     }
-    cJSON_ArrayForEach(item, member(runs->child, what))
-    {
+    for (item = first_of(runs->child, what); item; item = item->next) {
         if (n == REPORT_COLUMNS - 1) break;
         column[n] = (run_column){ what, item->string, 1.0 };
         add_column(p, &t, &column[n++], errors ? "" : unit_of(p, item->string));
@@ -115,8 +119,9 @@ static void run_table(const page *p, const char *what)
 /* The input that outputs are drawn over: the first that is a number, else the first. */
 static const cJSON *drawn_over(const cJSON *run)
 {
-    const cJSON *input, *first = member(run, "inputs")->child;
-    cJSON_ArrayForEach(input, member(run, "inputs")) if (cJSON_IsNumber(input)) return input;
+    const cJSON *first = first_of(run, "inputs");
+    for (const cJSON *input = first; input; input = input->next)
+        if (cJSON_IsNumber(input)) return input;
     return first;
 }
 
@@ -134,7 +139,7 @@ static double x_of(const cJSON *run, const drawn *d)
 
 static bool same_others(const cJSON *a, const cJSON *b)
 {
-    const cJSON *x = member(a, "inputs")->child, *y = member(b, "inputs")->child;
+    const cJSON *x = first_of(a, "inputs"), *y = first_of(b, "inputs");
     for (; x && y; x = x->next, y = y->next)
         if (x != drawn_over(a) && !cJSON_Compare(x, y, true)) return false;
     return true;
@@ -145,7 +150,7 @@ static void curve_name(const page *p, const cJSON *run, char *out, size_t size)
 {
     size_t used = 0;
     out[0] = '\0';
-    for (const cJSON *x = member(run, "inputs")->child; x && used + 1 < size; x = x->next) {
+    for (const cJSON *x = first_of(run, "inputs"); x && used + 1 < size; x = x->next) {
         if (x == drawn_over(run)) continue;
         const char *key = strrchr(x->string, '.');
         char value[REPORT_USED_SIZE];
@@ -187,13 +192,14 @@ static void draw_curves(const page *p, const char *name, const drawn *d)
 {
     enum { MOST = 12 };
     const cJSON *run, *runs = report_page_list(p, "sweep"), *first[MOST];
-    const char *input = drawn_over(runs->child)->string;
+    const cJSON *input = drawn_over(runs->child);
     int n = 0;
+    if (!input) return;
     char label[120];
     snprintf(label, sizeof label, d->over_time ? "error of %.90s" : "%.90s", d->key);
     report_chart *c = report_chart_create(
         d->over_time ? (report_axis){ .label = "time of the run", .unit = "s", .log = true, .fixed = true }
-                     : (report_axis){ .label = input, .unit = unit_of(p, input) },
+                     : (report_axis){ .label = input->string, .unit = unit_of(p, input->string) },
         (report_axis){ .label = label, .unit = d->over_time ? "" : unit_of(p, d->key), .log = d->over_time });
     cJSON_ArrayForEach(run, runs)
     {
@@ -212,8 +218,7 @@ static void draw_all(const page *p, const char *object, bool over_time, const ch
     const cJSON *item;
     int n = 0;
     report_page_plots_begin(p);
-    cJSON_ArrayForEach(item, member(report_page_list(p, "sweep")->child, object))
-    {
+    for (item = first_of(report_page_list(p, "sweep")->child, object); item; item = item->next) {
         char name[32];
         if (n++ == MOST_CHARTS) break;
         snprintf(name, sizeof name, "%s-%d", prefix, n);
