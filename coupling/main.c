@@ -145,20 +145,23 @@ static void say_where(const options *o, const session *s, status work)
     }
 }
 
-static void draw_report(const char *dir)
+static int draw_report(const char *dir)
 {
     const status drawn = report_write(dir, study_report_kind);
-    if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);
+    if (drawn.code == STATUS_OK) return EXIT_DONE;
+    fprintf(stderr, "breech: no report: %s; `breech report` makes it from what is there\n", drawn.text);
+    return EXIT_FAILED;
 }
 
 /* --resume of a finished run; one that was killed while it drew its report gets that. */
-static void say_finished(const options *o, const case_inputs *in, const session *s)
+static int say_finished(const options *o, const case_inputs *in, const session *s)
 {
     char path[OUTDIR_PATH_SIZE];
     if (!o->line.quiet) printf("%s: finished already\n", s->dir.path);
     if (in->output.report && host_outdir_file(&s->dir, OUTDIR_REPORT, path, sizeof path).code == STATUS_OK &&
         !host_file_exists(path))
-        draw_report(s->dir.path);
+        return draw_report(s->dir.path);
+    return EXIT_DONE;
 }
 
 static int carry_out(const options *o, const case_inputs *in, session *s)
@@ -175,10 +178,11 @@ static int carry_out(const options *o, const case_inputs *in, session *s)
     say_where(o, s, work);
     const status closed = run_session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
     if (y->free) y->free(answer.owned); /* scenes may be made of its cases until then */
-    if (report) draw_report(path);
+    const int drawn = report ? draw_report(path) : EXIT_DONE;
     if (work.code != STATUS_OK && work.code != STATUS_STOPPED) return complain(work);
     const status last = written.code != STATUS_OK ? written : closed;
-    return last.code == STATUS_OK ? exit_code(work) : complain(last);
+    if (last.code != STATUS_OK) return complain(last);
+    return work.code == STATUS_OK ? drawn : exit_code(work);
 }
 
 /* Scenes of this size that the machine holds side by side: each process may have put one off for another. */
@@ -211,8 +215,7 @@ static int run_case(const options *o)
         code = carry_out(o, in, &s);
     } else {
         const bool finished = opened.code == STATUS_OK;
-        if (finished) say_finished(o, in, &s);
-        code = complain(opened);
+        code = finished ? say_finished(o, in, &s) : complain(opened);
         run_session_close(&s, finished); /* killed at its very end it has left a checkpoint */
     }
     case_inputs_free(in);

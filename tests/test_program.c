@@ -381,6 +381,11 @@ static void test_resume_without_report(void **state)
     assert_int_equal(run("shot " SHOT " -o drawn --resume"), 0);
     assert_true(contains("out.txt", "finished already"));
     assert_true(exists("drawn/report.html"));
+    assert_int_equal(system("rm drawn/report.html && mkdir drawn/report.html"), 0); /* one that cannot be drawn */
+    assert_int_equal(run("shot " SHOT " -o drawn --resume"), 1);
+    assert_true(contains("err.txt", "no report: "));
+    assert_int_equal(run("shot " SHOT " -o drawn --force"), 1);
+    assert_true(contains("err.txt", "no report: ") && contains("drawn/summary.json", "\"done\""));
 }
 
 /* A site at the very end of the barrel is reached, with the muzzle's velocity. */
