@@ -132,13 +132,20 @@ static void peaks_update(circuit_shot *s)
     s->result.peak_acceleration = fmax(s->result.peak_acceleration, f.net / circuit_shot_z(s)[Y_MASS]);
 }
 
+/* A site at the very end is passed in the barrel, though the armature has left by the time this is handed out. */
+static circuit_shot_state state_of(const circuit_shot *s, const pending *p)
+{
+    const bool at_end = p->kind == CIRCUIT_SHOT_SITE && s->model.phase == CIRCUIT_SHOT_LEFT;
+    return at_end ? s->at_exit : circuit_shot_now(s);
+}
+
 /* Hands out the queue.  A sink may call circuit_shot_jump, which asks for a restart. */
 static bool deliver(circuit_shot *s, const circuit_shot_sink *sink)
 {
     while (s->head < s->tail) {
         const pending p = s->queue[s->head++];
         if (!sink || !sink->event) continue;
-        const circuit_shot_event e = { .kind = p.kind, .index = p.index, .state = circuit_shot_now(s) };
+        const circuit_shot_event e = { .kind = p.kind, .index = p.index, .state = state_of(s, &p) };
         if (!sink->event(sink->user, s, &e)) return false;
     }
     s->head = s->tail = 0;

@@ -195,7 +195,7 @@ typedef enum {
 typedef struct {
     circuit_shot_event_kind kind;
     int index;                /* of the group or site, else -1 */
-    circuit_shot_state state; /* just after the event */
+    circuit_shot_state state; /* just after the event; at a site at barrel.length, just before the exit */
 } circuit_shot_event;
 
 typedef struct circuit_shot circuit_shot; /* owns all its memory */
@@ -271,8 +271,9 @@ double circuit_shot_module_voltage(const circuit_shot *s, int group); /* of its 
 int circuit_shot_module_count(const circuit_shot *s);                 /* groups */
 
 /* A gouge: takes `impulse` [N s] (against the motion) and `mass_loss` [kg] (leaving at the armature's speed) at the
- * present instant; booked in the ledger.  An impulse larger than the momentum stops the armature. 
- * BASE_STATUS_BAD_INPUT for negative values or more mass than there is. */
+ * present instant; booked in the ledger.  An impulse larger than the momentum stops the armature.
+ * BASE_STATUS_BAD_INPUT for negative values or more mass than there is, and for an armature that does not move: at a
+ * site at barrel.length it has left, at one that it stopped at before it is held (circuit_shot_now tells the phase). */
 base_status circuit_shot_jump(circuit_shot *s, double impulse, double mass_loss);
 
 /* L' [H/m] and R' [ohm/m] of the pair at frequency f [Hz], by the level: constant returns what was given; skin and

@@ -57,6 +57,7 @@ struct circuit_shot {
     double momentum_jumps, mass_jumps, energy_jumps;
     double exit_kinetic, last_current, last_slope, last_t;
     circuit_shot_summary result;
+    circuit_shot_state at_exit; /* the last of the armature in the barrel; of zeros before */
 };
 
 double *circuit_shot_y(const circuit_shot *s); /* all unknowns */

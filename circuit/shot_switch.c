@@ -154,6 +154,7 @@ static void armature_leave(circuit_shot *s)
     const shot_forces f = circuit_shot_forces_now(s);
     z[Y_X] = s->model.barrel.length;
     sites_pass(s, false); /* one at the very end */
+    s->at_exit = circuit_shot_now(s);
     s->exit_kinetic = 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
     s->exit_action = z[Y_ACTION];
     const double spent = s->start_energy + z[Y_SUPPLIED];

@@ -124,6 +124,31 @@ static void test_jumps(void **state)
     case_free(c);
 }
 
+/* A gouge at the muzzle, and a second one at a place where the first has stopped the armature, find nothing to take. */
+static void test_jumps_at_rest_and_exit(void **state)
+{
+    (void)state;
+    const char *const at_muzzle[] = { "sites=[{position: 1 m}, {position: 3 m}]", NULL };
+    const char *const twice[] = { "sites=[{position: 1 m}, {position: 1 m}]", NULL };
+    const site_jump jump[2] = { { .impulse = 1.0, .mass_loss = 0.0 }, { .impulse = 1.0, .mass_loss = 1e-6 } };
+    const site_jump stop[2] = { { .impulse = 1e6, .mass_loss = 0.0 }, { .impulse = 1.0, .mass_loss = 0.0 } };
+    breech_case *c = changed_case(at_muzzle);
+    shot_outcome o;
+    OK(fly(c, &(shot_plan){ .jump = jump }, &o));
+    const site_state *s = &o.site[1];
+    const double force = c->armature.preload + c->armature.spreading * s->current * s->current;
+    const double pressure = force / gouge_face_area(&c->projectile);
+    assert_true(s->reached && s->velocity == o.summary.muzzle_velocity && s->time == o.summary.muzzle_time);
+    assert_true(fabs(s->contact_pressure - pressure) < 1e-9 * pressure); /* rounding: that of the armature inside */
+    gouge_shot_outcome_free(&o);
+    case_free(c);
+    c = changed_case(twice);
+    OK(fly(c, &(shot_plan){ .jump = stop }, &o));
+    assert_true(o.site[0].reached && o.site[1].reached && o.site[1].velocity == 0.0);
+    gouge_shot_outcome_free(&o);
+    case_free(c);
+}
+
 static bool stop_now(void)
 {
     return true;
@@ -950,6 +975,7 @@ int main(void)
         cmocka_unit_test(test_trace),
         cmocka_unit_test(test_not_reached),
         cmocka_unit_test(test_jumps),
+        cmocka_unit_test(test_jumps_at_rest_and_exit),
         cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_screen_table),
         cmocka_unit_test(test_screen_band),

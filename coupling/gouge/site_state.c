@@ -123,6 +123,12 @@ static void arrive(recorder *r, const circuit_shot_event *e)
     s->lead_face_temperature = e->state.lead_face_temperature;
 }
 
+/* Of an armature that has left at this very site, or that an earlier gouge here has stopped, nothing can be taken. */
+static bool takes(const circuit_shot *s, const site_jump *j)
+{
+    return (j->impulse > 0.0 || j->mass_loss > 0.0) && circuit_shot_now(s).phase == CIRCUIT_SHOT_MOVING;
+}
+
 static bool on_event(void *user, circuit_shot *s, const circuit_shot_event *e)
 {
     recorder *r = user;
@@ -134,7 +140,7 @@ static bool on_event(void *user, circuit_shot *s, const circuit_shot_event *e)
     if (e->kind != CIRCUIT_SHOT_SITE) return true;
     arrive(r, e);
     const site_jump *j = r->plan->jump ? &r->plan->jump[e->index] : NULL;
-    return !j || !(j->impulse > 0.0 || j->mass_loss > 0.0) || keep(r, circuit_shot_jump(s, j->impulse, j->mass_loss));
+    return !j || !takes(s, j) || keep(r, circuit_shot_jump(s, j->impulse, j->mass_loss));
 }
 
 static status keep_trace(recorder *r, const circuit_shot_state *s)
