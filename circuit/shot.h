@@ -148,9 +148,10 @@ typedef struct {
 
 typedef enum { CIRCUIT_SHOT_HELD, CIRCUIT_SHOT_MOVING, CIRCUIT_SHOT_LEFT } circuit_shot_phase;
 
-/* Everything at one instant. */
+/* Everything at one instant.  After the exit x, v, the armature's temperatures, its film and contact_spread stay at
+ * their exit values. */
 typedef struct {
-    double t, x, v, a;              /* [s, m, m/s, m/s^2]; x and v stay at their exit values after the muzzle */
+    double t, x, v, a;              /* [s, m, m/s, m/s^2] */
     double current;                 /* of the rails behind the armature [A] */
     double shunt_current;           /* of the muzzle shunt: the armature carries the rest [A] */
     double breech_voltage;          /* [V] */

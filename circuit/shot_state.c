@@ -51,6 +51,24 @@ circuit_shot_ledger circuit_shot_ledger_now(const circuit_shot *s)
     return l;
 }
 
+/* What belongs to the contact, while there is one. */
+static void contact_fill(const circuit_shot *s, const shot_forces *f, circuit_shot_state *st)
+{
+    st->armature_temperature = circuit_shot_face_temperature(s, f);
+    st->film_thickness = circuit_shot_film_thickness(s, f, st);
+    st->film_temperature = circuit_shot_film_temperature(s, f, st);
+    st->contact_spread = s->model.armature.contact_length / circuit_shot_crowding(&s->model, f, st->v);
+}
+
+/* What carries the current then is an arc or a shunt: the contact keeps what it had. */
+static void contact_keep(const circuit_shot_state *at_exit, circuit_shot_state *st)
+{
+    st->armature_temperature = at_exit->armature_temperature;
+    st->film_thickness = at_exit->film_thickness;
+    st->film_temperature = at_exit->film_temperature;
+    st->contact_spread = at_exit->contact_spread;
+}
+
 circuit_shot_state circuit_shot_now(const circuit_shot *s)
 {
     const double *z = circuit_shot_z(s);
@@ -72,14 +90,15 @@ circuit_shot_state circuit_shot_now(const circuit_shot *s)
     st.muzzle_voltage = f.voltage;
     st.rail_temperature = s->rail_temperature;
     st.ledger = circuit_shot_ledger_now(s);
-    st.armature_temperature = circuit_shot_face_temperature(s, &f);
     st.lead_face_temperature = circuit_shot_lead_face_temperature(s);
-    st.film_thickness = circuit_shot_film_thickness(s, &f, &st);
-    st.film_temperature = circuit_shot_film_temperature(s, &f, &st);
+    if (m->phase == CIRCUIT_SHOT_LEFT) {
+        contact_keep(&s->at_exit, &st);
+    } else {
+        contact_fill(s, &f, &st);
+    }
     st.rail_behind_temperature = circuit_shot_rail_behind_temperature(s, &f, &st);
     st.rail_flux = circuit_shot_rail_flux(s, &f, &st);
     st.rail_sheet = circuit_shot_rail_sheet(s, &st);
-    st.contact_spread = m->armature.contact_length / circuit_shot_crowding(m, &f, st.v);
     return st;
 }
 

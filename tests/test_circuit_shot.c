@@ -455,6 +455,32 @@ static void armature_that_stops_again(void **state)
     circuit_shot_free(s);
 }
 
+/* The muzzle arc's current is none of the armature's: what belongs to its contact stays as it left. */
+static void contact_kept_at_exit(void **state)
+{
+    (void)state;
+    static const double sites[] = { 5.0 };
+    circuit_shot_module modules[13];
+    circuit_shot_config c = plain(modules, default_bank(modules));
+    c.armature.velocity_skin = true;
+    c.armature.wear_fraction = 0.03;
+    c.barrel.muzzle_voltage = 200.0;
+    c.sites = sites;
+    c.n_sites = 1;
+    circuit_shot *s = run(&c);
+    const circuit_shot_state now = circuit_shot_now(s);
+    assert_true(now.phase == CIRCUIT_SHOT_LEFT && now.current == 0.0);
+    for (int k = 0; k < rec.n; k++) {
+        const circuit_shot_state *e = &rec.events[k].state;
+        if (rec.events[k].kind != CIRCUIT_SHOT_SITE && rec.events[k].kind != CIRCUIT_SHOT_MUZZLE) continue;
+        assert_true(e->armature_temperature > 1.5 * c.armature.initial_temperature && e->film_thickness > 0.0);
+        assert_true(e->contact_spread < c.armature.contact_length);
+        assert_true(e->armature_temperature == now.armature_temperature && e->contact_spread == now.contact_spread);
+        assert_true(e->film_thickness == now.film_thickness && e->film_temperature == now.film_temperature);
+    }
+    circuit_shot_free(s);
+}
+
 static void leaves_before_the_last_firing(void **state)
 {
     (void)state;
@@ -691,6 +717,7 @@ int main(void)
         cmocka_unit_test(weak_group_waits),
         cmocka_unit_test(stuck_armature),
         cmocka_unit_test(armature_that_stops_again),
+        cmocka_unit_test(contact_kept_at_exit),
         cmocka_unit_test(leaves_before_the_last_firing),
         cmocka_unit_test(sites_are_located),
         cmocka_unit_test(gouges_hand_back),
