@@ -76,28 +76,28 @@ extern const char *const circuit_shot_friction_law_names[]; /* "speed", "film", 
  * CIRCUIT_SHOT_MELTED), then the shear of the melt (circuit/armature/film.h), never more than friction_dry; what melts
  * then is also what wears, and nothing before. At rest the face is solid. */
 typedef struct {
-    double mass;                /* [kg] */
-    double velocity;            /* at t = 0 [m/s] */
-    double resistance;          /* [ohm] */
-    double contact_voltage;     /* both contacts together [V] */
-    int friction_law;           /* circuit_shot_friction_law */
-    double friction_dry;        /* mu0 [1] */
-    double friction_melted;     /* mu1 [1] */
-    double friction_speed;      /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
-    double film_viscosity;      /* of the melt, friction_law film [Pa s] */
-    bool velocity_skin;         /* the current crowds to the trailing edge of the contact, circuit/armature/contact.h */
-    double preload;             /* contact force per rail face at I = 0 [N] */
-    double spreading;           /* k in N = preload + k I^2, per rail face [N/A^2] */
-    double bore_area;           /* drag; NAN = separation x height [m^2] */
-    double gas_pressure;        /* ahead of the armature; 0 with density 0 is vacuum [Pa] */
-    double gas_density;         /* [kg/m^3] */
-    double gas_gamma;           /* ratio of specific heats [1] */
-    double wear_fraction;       /* share of the contact's heat that melts metal off, 0 = no wear [1] */
-    double specific_heat;       /* [J/kg/K] */
-    double melting_temperature; /* [K] */
-    double latent_heat;         /* [J/kg] */
-    double initial_temperature; /* before the shot [K] */
-    double density;             /* [kg/m^3] */
+    double mass;            /* [kg] */
+    double velocity;        /* at t = 0 [m/s] */
+    double resistance;      /* [ohm] */
+    double contact_voltage; /* both contacts together [V] */
+    int friction_law;       /* circuit_shot_friction_law */
+    double friction_dry;    /* mu0 [1] */
+    double friction_melted; /* mu1 [1] */
+    double friction_speed;  /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
+    double film_viscosity;  /* of the melt, friction_law film [Pa s] */
+    bool velocity_skin;     /* the current crowds to the trailing edge of the contact, circuit/armature/contact.h */
+    double preload;         /* contact force per rail face at I = 0 [N] */
+    double spreading;       /* k in N = preload + k I^2, per rail face [N/A^2] */
+    double bore_area;       /* drag; NAN = separation x height [m^2] */
+    double gas_pressure;    /* ahead of the armature; 0 with density 0 is vacuum [Pa] */
+    double gas_density;     /* [kg/m^3] */
+    double gas_gamma;       /* ratio of specific heats [1] */
+    double wear_fraction;   /* share of the contact's heat that melts metal off, 0 = no wear, at most heat_share [1] */
+    double specific_heat;   /* [J/kg/K] */
+    double melting_temperature;     /* [K] */
+    double latent_heat;             /* [J/kg] */
+    double initial_temperature;     /* before the shot [K] */
+    double density;                 /* [kg/m^3] */
     double thermal_conductivity;    /* [W/m/K] */
     double contact_length;          /* along the rail, one face [m] */
     double contact_width;           /* across the rail, one face; NAN = the rail's height [m] */

@@ -42,6 +42,30 @@ static status supplies_check(const circuit_shot_config *c)
     return status_ok();
 }
 
+static status armature_check(const circuit_shot_armature *a)
+{
+    CHECK(a->gas_density == 0.0 || a->gas_pressure > 0.0, STATUS_BAD_INPUT,
+          "armature.gas_pressure = 0 Pa with armature.gas_density = %g kg/m^3: give both or none", a->gas_density);
+    const bool film = a->friction_law == CIRCUIT_SHOT_FRICTION_FILM;
+    CHECK(!film || a->wear_fraction > 0.0, STATUS_BAD_INPUT,
+          "armature.friction_law film needs armature.wear_fraction above 0: the fraction of the heat that melts makes "
+          "the film");
+    CHECK(!a->velocity_skin || a->contact_voltage > 0.0, STATUS_BAD_INPUT,
+          "armature.velocity_skin needs armature.contact_voltage above 0 V: nothing else spreads the current");
+    CHECK(a->wear_fraction <= a->heat_share, STATUS_BAD_INPUT,
+          "armature.wear_fraction = %g: must be at most heat_share = %g, for what melts has entered the armature",
+          a->wear_fraction, a->heat_share);
+    const bool melts = a->wear_fraction > 0.0 || !isnan(a->leg_area) || !isnan(a->throat_area);
+    CHECK(!melts || a->melting_temperature > a->initial_temperature, STATUS_BAD_INPUT,
+          "armature.initial_temperature = %g K: must be below melting_temperature = %g K", a->initial_temperature,
+          a->melting_temperature);
+    const double cold = a->initial_temperature - 293.15;
+    CHECK(1.0 + a->resistivity_coefficient * cold > 0.0, STATUS_BAD_INPUT,
+          "armature.resistivity_coefficient = %g 1/K: leaves no resistivity at initial_temperature = %g K",
+          a->resistivity_coefficient, a->initial_temperature);
+    return status_ok();
+}
+
 status circuit_shot_check(const circuit_shot_config *c)
 {
     TRY(base_params_check(circuit_shot_barrel_params, &c->barrel, "barrel"));
@@ -49,22 +73,7 @@ status circuit_shot_check(const circuit_shot_config *c)
     TRY(base_params_check(circuit_shot_options_params, &c->options, "options"));
     CHECK(c->barrel.start < c->barrel.length, STATUS_BAD_INPUT,
           "barrel.start = %g m: must be less than barrel.length = %g m", c->barrel.start, c->barrel.length);
-    CHECK(c->armature.gas_density == 0.0 || c->armature.gas_pressure > 0.0, STATUS_BAD_INPUT,
-          "armature.gas_pressure = 0 Pa with armature.gas_density = %g kg/m^3: give both or none",
-          c->armature.gas_density);
-    const bool film = c->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM;
-    CHECK(!film || c->armature.wear_fraction > 0.0, STATUS_BAD_INPUT,
-          "armature.friction_law film needs armature.wear_fraction above 0: the fraction of the heat that melts makes "
-          "the film");
-    CHECK(!c->armature.velocity_skin || c->armature.contact_voltage > 0.0, STATUS_BAD_INPUT,
-          "armature.velocity_skin needs armature.contact_voltage above 0 V: nothing else spreads the current");
-    CHECK(c->armature.wear_fraction == 0.0 || c->armature.melting_temperature > c->armature.initial_temperature,
-          STATUS_BAD_INPUT, "armature.initial_temperature = %g K: must be below melting_temperature = %g K",
-          c->armature.initial_temperature, c->armature.melting_temperature);
-    const double cold = c->armature.initial_temperature - 293.15;
-    CHECK(1.0 + c->armature.resistivity_coefficient * cold > 0.0, STATUS_BAD_INPUT,
-          "armature.resistivity_coefficient = %g 1/K: leaves no resistivity at initial_temperature = %g K",
-          c->armature.resistivity_coefficient, c->armature.initial_temperature);
+    TRY(armature_check(&c->armature));
     TRY(supplies_check(c));
     for (int k = 0; k < c->n_sites; k++) {
         CHECK(c->sites[k] > c->barrel.start && c->sites[k] <= c->barrel.length, STATUS_BAD_INPUT,

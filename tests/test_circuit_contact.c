@@ -29,6 +29,31 @@ static void assert_refused(const circuit_shot_config *c, const char *key)
     if (!strstr(st.text, key)) fail_msg("%s does not name %s", st.text, key);
 }
 
+/* Temperatures and fractions that cannot be together. */
+static void refusals(void **state)
+{
+    (void)state;
+    circuit_shot_module m = unit_200kJ(1, 0.0);
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+    circuit_shot_armature *a = &c.armature;
+    double *const asks[] = { &a->leg_area, &a->throat_area, &a->wear_fraction };
+    a->wear_fraction = 0.6;
+    a->heat_share = 0.5;
+    assert_refused(&c, "armature.wear_fraction");
+    a->wear_fraction = 0.5;
+    OK(circuit_shot_check(&c));
+    a->wear_fraction = 0.0;
+    a->initial_temperature = a->melting_temperature + 50.0;
+    OK(circuit_shot_check(&c)); /* nothing asks how far melting is */
+    for (int k = 0; k < 3; k++) {
+        const double none = *asks[k];
+        *asks[k] = 1e-4;
+        assert_refused(&c, "armature.initial_temperature");
+        *asks[k] = none;
+    }
+}
+
 /* ---- crowding ---- */
 
 /* dJ/dx = sqrt(1/pi) int_0^x J(s)/sqrt(x - s) ds in lengths of d: J straight in every cell, the kernel's integral over
@@ -454,11 +479,17 @@ static void lead_face_warms_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(current_crowds),           cmocka_unit_test(spread_by_speed_and_current),
-        cmocka_unit_test(film_balances_its_heat),   cmocka_unit_test(film_bears_and_shears),
-        cmocka_unit_test(melting_changes_friction), cmocka_unit_test(current_crowds_in_a_shot),
-        cmocka_unit_test(wear_by_trapezes),         cmocka_unit_test(current_comes_to_the_lead_face),
-        cmocka_unit_test(lead_face_lags),           cmocka_unit_test(lead_face_warms_up),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(current_crowds),
+        cmocka_unit_test(spread_by_speed_and_current),
+        cmocka_unit_test(film_balances_its_heat),
+        cmocka_unit_test(film_bears_and_shears),
+        cmocka_unit_test(melting_changes_friction),
+        cmocka_unit_test(current_crowds_in_a_shot),
+        cmocka_unit_test(wear_by_trapezes),
+        cmocka_unit_test(current_comes_to_the_lead_face),
+        cmocka_unit_test(lead_face_lags),
+        cmocka_unit_test(lead_face_warms_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

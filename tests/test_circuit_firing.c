@@ -211,7 +211,7 @@ static void worn_away(void **state)
     circuit_firing_result r;
     circuit_shot_config c = three_groups(m);
     c.supplies[CIRCUIT_SUPPLY_capacitor].n = 1;
-    c.armature.wear_fraction = 1.0;
+    c.armature.wear_fraction = c.armature.heat_share = 1.0;
     c.armature.mass = 0.02;
     m[0].charge *= 3.0;
     circuit_shot *s = NULL;
