@@ -40,6 +40,8 @@ typedef struct {
     const circuit_firing_host *host;
     circuit_firing_result *out;
     double scale; /* of the charges, last trial */
+    circuit_rails_load load;
+    bool fit_again; /* the rails' gradients follow from the firing times */
     status failed;
 } search;
 
@@ -184,8 +186,18 @@ static double take_known(search *q, const circuit_firing_trial *t)
     return t->value;
 }
 
+/* Once for all trials, but where L' and R' are those of the frequency that the firing times give, (C-6). */
+static status fit_rails(search *q)
+{
+    q->config.fitted = NULL;
+    TRY(circuit_shot_rails_fit(&q->config, &q->load));
+    q->config.fitted = &q->load.ladder;
+    return status_ok();
+}
+
 static status run_trial(search *q, double *value)
 {
+    if (q->fit_again) TRY(fit_rails(q));
     TRY(q->wish.goal == CIRCUIT_FIRING_FLAT ? measure_flat(q, value) : measure_velocity(q, value));
     const circuit_firing_trial t = { *value, q->scale, q->out->shots };
     return q->host->keep ? q->host->keep(q->host->user, &t) : status_ok();
@@ -318,7 +330,6 @@ status circuit_firing_resume(const circuit_shot_config *c, const circuit_firing_
 {
     const circuit_supply_list *bank = &c->supplies[CIRCUIT_SUPPLY_capacitor];
     const size_t n = bank->n > 0 ? (size_t)bank->n : 1;
-    circuit_rails_load load;
     *out = (circuit_firing_result){ .before = NAN, .after = NAN };
     TRY(circuit_firing_check(c, wish));
     search q = { .config = *c,
@@ -336,8 +347,8 @@ status circuit_firing_resume(const circuit_shot_config *c, const circuit_firing_
     q.config.n_sites = 0;
     q.config.options.rtol = fmax(c->options.rtol, SEARCH_RTOL);
     q.config.options.atol = 0.01 * q.config.options.rtol;
-    TRY(circuit_shot_rails_fit(c, &load));
-    q.config.fitted = &load.ladder;
+    q.fit_again = !c->fitted && c->rails.level == CIRCUIT_SHOT_RAILS_SKIN && isnan(c->rails.frequency);
+    if (!c->fitted && !q.fit_again) TRY(fit_rails(&q));
     q.moved = malloc(n * sizeof *q.moved);
     CHECK(q.moved, STATUS_MEMORY, "out of memory for %zu groups", n);
     q.n_moved = choose_moved(c, q.moved);

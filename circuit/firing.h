@@ -3,8 +3,8 @@
  *
  * The search moves the firing times of all capacitor groups that fire and join at the breech, except the first.  For
  * the goal `velocity` it also scales all charges by one factor, and that alone where no time can move.  The rails'
- * ladder is fitted once.  A simplex search
- * finds a local minimum near its start, not the global one. */
+ * ladder is fitted once; at level skin without a frequency, whose gradients follow from the firing times, once a trial.
+ * A simplex search finds a local minimum near its start, not the global one. */
 #ifndef BREECH_CIRCUIT_FIRING_H
 #define BREECH_CIRCUIT_FIRING_H
 

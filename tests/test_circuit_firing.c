@@ -105,6 +105,30 @@ static void velocity_at_least_energy(void **state)
     assert_true(r.after < r.before && r.stored_energy == r.after);
 }
 
+/* At level skin without a frequency the rails' gradients go with the firing times: the search's shots have those too. */
+static void gradients_by_firing_times(void **state)
+{
+    (void)state;
+    circuit_shot_module m[GROUPS], found[GROUPS];
+    circuit_firing_result r;
+    circuit_shot_config c = three_groups(m);
+    c.rails.level = CIRCUIT_SHOT_RAILS_SKIN;
+    c.rails.fineness = 2.0;
+    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_VELOCITY);
+    w.muzzle_velocity = 900.0;
+    w.evaluations = 10;
+    OK(circuit_firing_optimise(&c, &w, NULL, found, &r));
+    const double v = shoot(c, found).muzzle_velocity, before = circuit_shot_effective_frequency(&c);
+    c.supplies[CIRCUIT_SUPPLY_capacitor].item = found;
+    const double after = circuit_shot_effective_frequency(&c);
+    print_message("skin: %.1f -> %.1f Hz, %.3f m/s\n", before, after, v);
+    assert_true(fabs(after / before - 1.0) > 0.01 && fabs(v / 900.0 - 1.0) < 2e-5);
+    c.supplies[CIRCUIT_SUPPLY_capacitor].item = m;
+    c.rails.frequency = 300.0; /* one for all trials */
+    OK(circuit_firing_optimise(&c, &w, NULL, found, &r));
+    assert_true(fabs(shoot(c, found).muzzle_velocity / 900.0 - 1.0) < 2e-5);
+}
+
 /* One group has no time to move: its charge alone is found, and the same from twice the charge. */
 static void charge_of_one_group(void **state)
 {
@@ -247,6 +271,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_below_a_peak),
         cmocka_unit_test(velocity_at_least_energy),
+        cmocka_unit_test(gradients_by_firing_times),
         cmocka_unit_test(charge_of_one_group),
         cmocka_unit_test(keeps_its_budget),
         cmocka_unit_test(stopped_at_any_trial),
