@@ -42,7 +42,8 @@ const base_param circuit_shot_rails_params[] = {
           "top of the ladder's band; from bank energy, armature and contact length if not given"),
     PARAM_INT(circuit_shot_rails, slices, 0, 0, 32,
               "parts of the barrel whose resistance follows their own temperature; 0: it stays as before the shot"),
-    RAILS(heat_capacity, "J/m^3/K", 3.45e6, 1e5, 1e7, "of the rails' metal: slices, and what a shot leaves"),
+    RAILS(heat_capacity, "J/m^3/K", 3.45e6, 1e5, 1e7,
+          "of the rails' metal: slices, and what a shot leaves; not given: density times specific heat, in a case"),
     RAILS(fineness, "1", INDUCTANCE_FINENESS, 1.0, 20.0, "filaments over the skin depth at the highest frequency"),
     PARAMS_END
 };

@@ -624,6 +624,7 @@ static void what_follows_is_not_asked_for(void **state)
     assert_true(isnan(c->armature.wear_thickness)); /* nothing wears */
     assert_true(c->rails.resistivity == steel->resistivity && c->rails.density == steel->density);
     assert_true(c->rails.resistivity_coefficient == 3.93e-3); /* the metal's is not known */
+    assert_true(c->rails.heat_capacity == c->rails.density * c->rails.specific_heat && c->rails.density < 8000.0);
     assert_true(c->armature.melting_temperature == alloy->melting_temperature);
     assert_true(c->rails.initial_temperature == 400.0 && c->armature.initial_temperature == 293.15);
     case_free(c);
@@ -634,6 +635,27 @@ static void what_follows_is_not_asked_for(void **state)
     assert_true(c->armature.contact_length == 0.007 && c->armature.contact_width == 0.006);
     assert_true(c->armature.wear_thickness == 0.005 && c->armature.density == 3000.0);
     case_free(c);
+}
+
+/* The heat capacity of a volume follows density and specific heat, however they are known; copper's keeps its own. */
+static void heat_capacity_follows(void **state)
+{
+    (void)state;
+    const struct {
+        const char *rail;
+        double want;
+    } cases[] = { { "", 3.45e6 },
+                  { ", material: ofhc_copper, specific_heat: 385 J/kg/K", 3.45e6 },
+                  { ", density: 19300 kg/m^3, specific_heat: 134 J/kg/K", 19300.0 * 134.0 },
+                  { ", density: 19300 kg/m^3, heat_capacity: 3 MJ/m^3/K", 3e6 } };
+    for (int k = 0; k < 4; k++) {
+        char text[300];
+        snprintf(text, sizeof text, "name: a\nrail: {height: 20 mm, thickness: 10 mm, separation: 18 mm%s}\n",
+                 cases[k].rail);
+        breech_case *c = read_text(text);
+        assert_true(c->rails.heat_capacity == cases[k].want);
+        case_free(c);
+    }
 }
 
 /* Neither half of a section, the circuit's and the scene's, needs the other; a command says what is missing. */
@@ -1003,6 +1025,7 @@ int main(void)
         cmocka_unit_test(chains_end),
         cmocka_unit_test(lists_of_values_are_groups),
         cmocka_unit_test(what_follows_is_not_asked_for),
+        cmocka_unit_test(heat_capacity_follows),
         cmocka_unit_test(halves_of_a_section),
         cmocka_unit_test(old_names_are_read),
         cmocka_unit_test(settings_of_boxes_are_read),

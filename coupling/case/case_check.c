@@ -87,6 +87,16 @@ static void follow_metal(const tree_node *map, const base_param *table, void *ob
                *(const double *)((const char *)m + row_of(mpm_material_params, keys->constant)->offset));
 }
 
+/* Density times specific heat; with pure copper's constants, those of the table, the table's round number. */
+static void follow_heat_capacity(const tree_node *map, circuit_shot_rails *r)
+{
+    const base_param *table = circuit_shot_rails_params;
+    circuit_shot_rails copper;
+    base_params_default(table, &copper);
+    if (r->density != copper.density || r->specific_heat != copper.specific_heat)
+        follow(map, table, r, "heat_capacity", r->density * r->specific_heat);
+}
+
 bool case_has_body(const breech_case *c)
 {
     return c->given.projectile && !isnan(c->projectile.length);
@@ -118,6 +128,7 @@ void case_resolve(breech_case *c, const tree_node *root)
     const tree_node *armature = host_tree_find(root, "armature");
     follow_lengths(c, armature);
     follow_metal(rail, circuit_shot_rails_params, &c->rails, rail_keys, case_material(&c->materials, c->rail.material));
+    follow_heat_capacity(rail, &c->rails);
     follow_metal(armature, circuit_shot_armature_params, &c->armature, armature_keys,
                  case_material(&c->materials, c->projectile.material));
     follow_temperature(rail, circuit_shot_rails_params, &c->rails, c->rail.temperature);
