@@ -275,12 +275,20 @@ typedef struct {
     double I[TAIL_MAX], push[TAIL_MAX];
 } feed_columns;
 
+/* Step of the currents' differences [A]: where the contact's voltage turns over with the current's sign, well within
+ * the current over which it does. */
+static double current_step(const shot_model *m, double I)
+{
+    static const double LEAST = 1e3; /* [A] */
+    return 1e-6 * fmax(fabs(I), m->knee > 0.0 ? fmin(LEAST, 1e3 * m->knee) : LEAST);
+}
+
 static void feed_columns_at(const shot_model *m, const shot_drive *d, int feed, const double *z, const double *base,
                             feed_columns *c)
 {
     const int n = tail_size(m);
     shot_drive moved = *d;
-    const double hI = 1e-6 * fmax(fabs(circuit_shot_total_current(d, m)), 1e3), hp = fmax(fabs(d->push[feed]), 1e6);
+    const double hI = current_step(m, circuit_shot_total_current(d, m)), hp = fmax(fabs(d->push[feed]), 1e6);
     moved.I[feed] += hI;
     tail_rates(m, &moved, z, c->I);
     moved.I[feed] = d->I[feed];

@@ -684,6 +684,47 @@ static void a_barrel_of_feeds(void **state)
     circuit_shot_free(s);
 }
 
+static bool few_steps(void *user, const circuit_shot *s, const circuit_shot_state *st)
+{
+    (void)st;
+    return circuit_shot_result(s).steps < *(const uint64_t *)user;
+}
+
+/* The ring of a small laboratory bank past a contact of 2 V and a shunt, 220 A at most, and its copy of 1.1 MA: impedances
+ * over 100, voltages times 50.  Both take about as many steps. */
+static void small_currents_ring_alike(void **state)
+{
+    (void)state;
+    uint64_t steps[2], most = 20000;
+    for (int k = 0; k < 2; k++) {
+        const double Z = k ? 0.01 : 1.0, V = k ? 50.0 : 1.0;
+        circuit_shot_module m = unit_200kJ(1, 0.0);
+        m.capacitance = 20e-6 / Z;
+        m.charge = 200.0 * V;
+        m.inductance = 16e-6 * Z;
+        m.resistance = 4e-3 * Z;
+        m.crowbar = m.series_diode = false;
+        circuit_shot_config c = plain_barrel();
+        c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+        c.rails.inductance_gradient *= Z;
+        c.rails.resistance_gradient *= Z;
+        c.barrel.shunt_resistance = 0.05 * Z;
+        c.barrel.shunt_inductance = 1e-7 * Z;
+        c.armature.mass = 1e3;
+        c.armature.resistance *= Z;
+        c.armature.contact_voltage = 2.0 * V;
+        c.options.rtol = c.options.atol = 1e-6;
+        c.options.max_time = 5e-4;
+        circuit_shot *s = NULL;
+        OK(circuit_shot_create(&c, &s));
+        OK(circuit_shot_advance(s, INFINITY, &(circuit_shot_sink){ NULL, few_steps, &most }));
+        steps[k] = circuit_shot_result(s).steps;
+        print_message("%.4g A: %d steps\n", circuit_shot_result(s).peak_current, (int)steps[k]);
+        circuit_shot_free(s);
+    }
+    assert_true(steps[0] < 2 * steps[1] && steps[1] < 2 * steps[0]);
+}
+
 /* A shunt of great resistance is none; one of little takes current from the armature and slows it; what it burns is
  * booked. */
 static void muzzle_shunt(void **state)
@@ -807,6 +848,7 @@ int main(void)
         cmocka_unit_test(joining_on_the_way),
         cmocka_unit_test(a_barrel_of_feeds),
         cmocka_unit_test(muzzle_shunt),
+        cmocka_unit_test(small_currents_ring_alike),
         cmocka_unit_test(limits),
         cmocka_unit_test(temperatures),
     };
