@@ -647,8 +647,9 @@ static void heat_capacity_follows(void **state)
     } cases[] = { { "", 3.45e6 },
                   { ", material: ofhc_copper, specific_heat: 385 J/kg/K", 3.45e6 },
                   { ", density: 19300 kg/m^3, specific_heat: 134 J/kg/K", 19300.0 * 134.0 },
+                  { ", density: 8000 kg/m^3", 8000.0 * 385.0 },
                   { ", density: 19300 kg/m^3, heat_capacity: 3 MJ/m^3/K", 3e6 } };
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         char text[300];
         snprintf(text, sizeof text, "name: a\nrail: {height: 20 mm, thickness: 10 mm, separation: 18 mm%s}\n",
                  cases[k].rail);
