@@ -79,7 +79,7 @@ typedef struct {
     double mass;            /* [kg] */
     double velocity;        /* at t = 0 [m/s] */
     double resistance;      /* [ohm] */
-    double contact_voltage; /* both contacts together [V] */
+    double contact_voltage; /* from rail to rail, both contacts on the way together [V] */
     int friction_law;       /* circuit_shot_friction_law */
     double friction_dry;    /* mu0 [1] */
     double friction_melted; /* mu1 [1] */
@@ -87,7 +87,7 @@ typedef struct {
     double film_viscosity;  /* of the melt, friction_law film [Pa s] */
     bool velocity_skin;     /* the current crowds to the trailing edge of the contact, circuit/armature/contact.h */
     double preload;         /* contact force per rail face at I = 0 [N] */
-    double spreading;       /* k in N = preload + k I^2, per rail face [N/A^2] */
+    double spreading;       /* k in N = preload + k I^2, per rail face, I the whole current [N/A^2] */
     double bore_area;       /* drag; NAN = separation x height [m^2] */
     double gas_pressure;    /* ahead of the armature; 0 with density 0 is vacuum [Pa] */
     double gas_density;     /* [kg/m^3] */
@@ -157,7 +157,7 @@ typedef struct {
     double breech_voltage;          /* [V] */
     double muzzle_voltage;          /* between the rails ahead of the armature, then across the shunt [V] */
     double force;                   /* electromagnetic, equation (C-2) [N] */
-    double friction;                /* both faces [N] */
+    double friction;                /* all faces, one a rail [N] */
     double drag;                    /* gas [N] */
     double friction_coefficient;    /* mu(v) [1] */
     double contact_force;           /* per rail face [N] */
@@ -233,7 +233,7 @@ typedef struct {
 /* How near the armature and the rails have come to their limits; NAN where the configuration does not ask, or nothing
  * was reached.  Above 1 (contact_ratio: below 1) the contact is expected to go over into an arc: transition. */
 typedef struct {
-    double contact_ratio;       /* least contact force over 1 gram-force per ampere, in motion [1] */
+    double contact_ratio;       /* least contact force over 1 gram-force per ampere of its face, in motion [1] */
     double leg_action;          /* action over that which melts the leg, (C-18) [1] */
     double throat_action;       /* the throat alike [1] */
     double wear_share;          /* thickness worn off, where it is most, over leg_thickness [1] */

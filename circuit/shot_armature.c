@@ -22,7 +22,7 @@ static double gas_drag(const shot_model *m, double v)
 
 double circuit_shot_hold_force(const shot_model *m, double I)
 {
-    return 2.0 * m->armature.friction_dry * (m->armature.preload + m->armature.spreading * I * I);
+    return m->faces * m->armature.friction_dry * (m->armature.preload + m->armature.spreading * I * I);
 }
 
 double circuit_shot_push(const shot_model *m, double v, double I)
@@ -43,12 +43,12 @@ double circuit_shot_crowding(const shot_model *m, const shot_forces *f, double v
 
 double circuit_shot_friction_heat(const shot_model *m, const shot_forces *f, double v)
 {
-    return f->friction * v / (2.0 * m->contact_area);
+    return f->friction * v / (m->faces * m->contact_area);
 }
 
 double circuit_shot_current_heat(const shot_model *m, const shot_forces *f)
 {
-    return m->armature.contact_voltage * fabs(f->I - f->shunt) / (2.0 * m->contact_area);
+    return m->armature.contact_voltage * fabs(f->I - f->shunt) / (m->faces * m->contact_area);
 }
 
 /* Solid until its face has melted; then the melt's shear, unless the solid's is less.                   (C-20), (C-21)
@@ -70,7 +70,7 @@ double circuit_shot_total_current(const shot_drive *d, const shot_model *m)
     return I;
 }
 
-/* m dv/dt = F - 2 mu(v) N - drag,  N = preload + k I^2                                     (C-3)
+/* m dv/dt = F - n mu(v) N - drag on n faces,  N = preload + k I^2                                     (C-3)
  * with a shunt F = F(I) - 1/2 L_inf i_m^2: its current i_m flows ahead of the armature, which carries I - i_m
  * (C-15) */
 shot_forces circuit_shot_forces_at(const shot_model *m, const shot_drive *d, const double *z)
@@ -91,7 +91,7 @@ shot_forces circuit_shot_forces_at(const shot_model *m, const shot_drive *d, con
         return f;
     }
     if (m->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM) film_friction(m, v, &f);
-    f.friction = 2.0 * f.mu * f.contact;
+    f.friction = m->faces * f.mu * f.contact;
     f.drag = gas_drag(m, v);
     f.net = f.force - f.friction - f.drag;
     return f;
@@ -121,7 +121,7 @@ double circuit_shot_face_rise(const shot_model *m, const shot_forces *f, const d
     const circuit_shot_armature *a = &m->armature;
     const double v = z[Y_V], crowding = circuit_shot_crowding(m, f, v);
     const double q = a->heat_share * (circuit_shot_friction_heat(m, f, v) + crowding * circuit_shot_current_heat(m, f));
-    const double E = a->heat_share * (z[Y_FRICTION] + crowding * z[Y_CONTACT]) / (2.0 * m->contact_area);
+    const double E = a->heat_share * (z[Y_FRICTION] + crowding * z[Y_CONTACT]) / (m->faces * m->contact_area);
     return 2.0 * sqrt(fmax(q * E, 0.0) / PI) / sqrt(a->thermal_conductivity * a->density * a->specific_heat);
 }
 

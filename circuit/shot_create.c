@@ -145,6 +145,7 @@ static void model_fill(circuit_shot *s, const circuit_shot_config *c)
     m->next_site = INFINITY;
     m->scale = s->scale;
     m->shunt = !isnan(c->barrel.shunt_resistance);
+    m->faces = c->rails.count;
     m->contact_area = a->contact_length * (isnan(a->contact_width) ? c->rails.height : a->contact_width);
     m->bore_area = isnan(a->bore_area) ? c->rails.separation * c->rails.height : a->bore_area;
     m->sound_speed = a->gas_density > 0.0 ? sqrt(a->gas_gamma * a->gas_pressure / a->gas_density) : 0.0;
@@ -266,7 +267,7 @@ static void state_fill(circuit_shot *s, const circuit_shot_config *c)
     s->armature_temperature = c->armature.initial_temperature;
     /* Free at once where nothing holds it: friction then starts at zero with the current, below the force. */
     const bool loose = c->armature.friction_dry * c->armature.preload == 0.0 &&
-                       circuit_shot_push(m, 0.0, 1.0) > 2.0 * c->armature.friction_dry * c->armature.spreading;
+                       circuit_shot_push(m, 0.0, 1.0) > m->faces * c->armature.friction_dry * c->armature.spreading;
     if (z[Y_V] > 0.0 || loose) m->phase = CIRCUIT_SHOT_MOVING;
     m->next_site = s->n_sites > 0 ? s->sites[0].position : INFINITY;
     circuit_shot_limits_start(s);

@@ -160,7 +160,8 @@ static double worn_thickness(circuit_shot *s, const shot_forces *f)
 {
     const circuit_shot_armature *a = &s->model.armature;
     const double *z = circuit_shot_z(s);
-    if (!a->velocity_skin) return (a->mass - s->mass_jumps - z[Y_MASS]) / (2.0 * a->density * s->model.contact_area);
+    if (!a->velocity_skin)
+        return (a->mass - s->mass_jumps - z[Y_MASS]) / (s->model.faces * a->density * s->model.contact_area);
     const bool solid = a->friction_law == CIRCUIT_SHOT_FRICTION_FILM && !s->model.melted;
     const double q = circuit_shot_friction_heat(&s->model, f, z[Y_V]) +
                      circuit_shot_crowding(&s->model, f, z[Y_V]) * circuit_shot_current_heat(&s->model, f);
@@ -174,15 +175,16 @@ static double worn_thickness(circuit_shot *s, const shot_forces *f)
 void circuit_shot_limits_update(circuit_shot *s, const shot_forces *f)
 {
     const circuit_shot_armature *a = &s->model.armature;
+    const double part = 2.0 / s->model.faces; /* of the current, on one face and in its leg */
     const double *z = circuit_shot_z(s), I = fabs(f->I - f->shunt), x = z[Y_X];
     circuit_shot_limits *l = &s->limits;
     const double melting = melt_action(a);
-    l->leg_action = z[Y_ACTION] / (melting * a->leg_area * a->leg_area);
+    l->leg_action = part * part * z[Y_ACTION] / (melting * a->leg_area * a->leg_area);
     l->throat_action = z[Y_ACTION] / (melting * a->throat_area * a->throat_area);
     first_place(&l->transition_position, l->leg_action > 1.0 || l->throat_action > 1.0, x);
     if (s->model.phase != CIRCUIT_SHOT_MOVING) return; /* held, it melts all the same */
     if (I > CURRENT_THAT_COUNTS * s->result.peak_current) {
-        const double ratio = f->contact / (GRAM_FORCE * I);
+        const double ratio = f->contact / (GRAM_FORCE * part * I);
         l->contact_ratio = fmin(ratio, isnan(l->contact_ratio) ? INFINITY : l->contact_ratio);
         first_place(&l->contact_position, ratio < 1.0, x);
     }

@@ -48,6 +48,7 @@ typedef struct {
     circuit_shot_barrel barrel;
     circuit_shot_armature armature;
     circuit_rails_load rails;
+    double faces; /* contact faces, one a rail; each carries its part of the current, 2/faces [1] */
     double bore_area, contact_area, sound_speed; /* of one contact face; of the gas [m^2, m^2, m/s] */
     double wear_heat;                            /* heat that melts off one kilogram [J/kg] */
     melt_film film;                              /* friction_law film */
@@ -85,7 +86,7 @@ double circuit_shot_rails_warming(const shot_model *m, int f, const double *z); 
 
 /* ---- the armature: circuit/shot_armature.c ---- */
 
-double circuit_shot_hold_force(const shot_model *m, double I);     /* static friction of both faces [N] */
+double circuit_shot_hold_force(const shot_model *m, double I);     /* static friction of all faces [N] */
 double circuit_shot_push(const shot_model *m, double v, double I); /* electromagnetic force at the speed v [N] */
 shot_forces circuit_shot_forces_at(const shot_model *m, const shot_drive *d, const double *z);
 void circuit_shot_armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q);

@@ -165,7 +165,8 @@ static status warming_fit(const circuit_shot_rails *rails, circuit_rails_load *o
     return status_ok();
 }
 
-/* With a velocity skin effect the current spreads by the contact voltage, over the metal of the bore face. */
+/* With a velocity skin effect the current spreads by the contact voltage, over the metal of the bore face: half of it
+ * lies on each of the faces that carry 2/count of the current, side by side. */
 static void contact_fit(const circuit_shot_config *c, circuit_sliding_contact *out)
 {
     const circuit_shot_armature *a = &c->armature;
@@ -173,7 +174,7 @@ static void contact_fit(const circuit_shot_config *c, circuit_sliding_contact *o
     const double width = isnan(a->contact_width) ? r->height : a->contact_width;
     const double warm = 1.0 + r->resistivity_coefficient * (r->initial_temperature - 293.15);
     out->length = a->contact_length;
-    out->interface = a->velocity_skin ? 0.5 * a->contact_voltage * a->contact_length * width : 0.0;
+    out->interface = a->velocity_skin ? 0.25 * r->count * a->contact_voltage * a->contact_length * width : 0.0;
     out->resistivity = r->cladding > 0.0 ? r->cladding_resistivity : r->resistivity * warm;
 }
 

@@ -331,6 +331,43 @@ static void current_crowds_in_a_shot(void **state)
     assert_refused(&c, "armature.contact_voltage");
 }
 
+/* The faces of four rails, each with half of the current, do what those of two rails do that are twice as wide, pressed
+ * twice as hard and with twice the leg: bit for bit, for all factors are two. */
+static void four_faces(void **state)
+{
+    (void)state;
+    for (int law = 0; law < 2; law++) {
+        contact_notes n[2];
+        circuit_shot_limits l[2];
+        circuit_shot_state end[2];
+        for (int k = 0; k < 2; k++) {
+            circuit_shot_config c = launcher();
+            circuit_shot_armature *a = &c.armature;
+            const double wider = k ? 1.0 : 2.0;
+            c.rails.count = k ? 4 : 2;
+            c.rails.height = 0.02;
+            a->contact_width = 0.02 * wider;
+            a->preload *= wider;
+            a->spreading *= wider;
+            a->leg_area = 1e-4 * wider;
+            a->bore_area = 6e-4;
+            a->velocity_skin = true;
+            a->friction_law = law ? CIRCUIT_SHOT_FRICTION_FILM : CIRCUIT_SHOT_FRICTION_SPEED;
+            circuit_shot *s = watched(&c, &n[k]);
+            l[k] = circuit_shot_limits_of(s), end[k] = circuit_shot_now(s);
+            circuit_shot_free(s);
+        }
+        const circuit_shot_state *two = &n[0].last, *four = &n[1].last;
+        assert_true(end[0].v == end[1].v && end[0].mass == end[1].mass && n[0].least_spread == n[1].least_spread);
+        assert_true(end[0].ledger.friction == end[1].ledger.friction && end[0].armature_temperature > 400.0);
+        assert_true(end[0].armature_temperature == end[1].armature_temperature);
+        assert_true(two->friction == four->friction && two->contact_pressure == four->contact_pressure);
+        assert_true(two->film_thickness == four->film_thickness && two->rail_flux == four->rail_flux);
+        assert_true(l[0].contact_ratio == l[1].contact_ratio && l[0].leg_action == l[1].leg_action);
+        assert_true(l[0].wear_share == l[1].wear_share && l[0].wear_share > 0.0);
+    }
+}
+
 /* A contact without crowding, asked for its wear along the way, agrees with its mass: the trapezes are good. */
 static void wear_by_trapezes(void **state)
 {
@@ -487,6 +524,7 @@ int main(void)
         cmocka_unit_test(melting_changes_friction),
         cmocka_unit_test(current_crowds_in_a_shot),
         cmocka_unit_test(wear_by_trapezes),
+        cmocka_unit_test(four_faces),
         cmocka_unit_test(current_comes_to_the_lead_face),
         cmocka_unit_test(lead_face_lags),
         cmocka_unit_test(lead_face_warms_up),

@@ -23,6 +23,7 @@ static case_onset made_up(mpm_material *metal)
     memset(&c, 0, sizeof c);
     c.launcher.barrel = (circuit_shot_barrel){ .length = LENGTH, .start = START };
     c.launcher.rails.height = WIDTH;
+    c.launcher.rails.count = 2;
     c.launcher.armature.contact_width = NAN; /* then the rail's height */
     c.launcher.armature.contact_length = FACE;
     c.launcher.armature.density = 1.0; /* the scenes' metal counts */

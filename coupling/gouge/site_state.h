@@ -32,7 +32,7 @@ typedef struct {
     double rail_flux;             /* of the contact's heat into one rail's face [W/m^2] */
     double rail_sheet;            /* current on a metre of that face's height [A/m] */
     double film_rise;             /* of the armature's face, with its film, over the rail ahead [K] */
-    double melted;                /* mass that both faces have lost to melting so far [kg] */
+    double melted;                /* mass that all faces have lost to melting so far [kg] */
 } trace_point;
 
 /* What a gouge takes from the armature at its site. */

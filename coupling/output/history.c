@@ -341,7 +341,7 @@ status output_history_map(history *h, const char *scene, const history_map *map)
     COLUMN(breech_voltage, "V", "between the rails at the breech", s->breech_voltage)                   \
     COLUMN(muzzle_voltage, "V", "between the rails ahead of the armature", s->muzzle_voltage)           \
     COLUMN(force, "N", "electromagnetic, on the armature", s->force)                                    \
-    COLUMN(friction, "N", "both rail faces", s->friction)                                               \
+    COLUMN(friction, "N", "all rail faces", s->friction)                                               \
     COLUMN(drag, "N", "gas ahead of the armature", s->drag)                                             \
     COLUMN(contact_force, "N", "per rail face", s->contact_force)                                       \
     COLUMN(contact_pressure, "Pa", "contact force over the nominal contact area", s->contact_pressure)  \

@@ -25,7 +25,7 @@ void study_rail_left_of(const case_onset *c, const shot_outcome *flown, rail_lef
         const double melted = melted_at(flown, x + 0.5 * length) - melted_at(flown, x - 0.5 * length);
         trace_point at;
         out->pressed[k] = gouge_trace_at_place(flown, x, &at) ? at.pressure * length : 0.0; /* (O-6) */
-        out->metal[k] = melted / (2.0 * density * width * length);                          /* (O-7) */
+        out->metal[k] = melted / (c->launcher.rails.count * density * width * length);      /* (O-7) */
     }
 }
 
