@@ -289,6 +289,7 @@ static status fill(circuit_shot *s, const circuit_shot_config *c)
     model_fill(s, c);
     scales_fill(s);
     state_fill(s, c);
+    TRY(circuit_shot_rail_sheet_start(s));
     return circuit_shot_heat_start(s, c);
 }
 

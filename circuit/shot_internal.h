@@ -48,6 +48,7 @@ struct circuit_shot {
     double t, rail_temperature, armature_temperature;
     double start_energy, exit_action;
     circuit_shot_rails rails; /* their section and metal, as given */
+    double crowding;          /* P of (C-17): mean surface current of a rail over I/height [1] */
     circuit_shot_limits limits;
     circuit_lead_face lead_face;
     double worn, wear_rate, worn_until; /* velocity skin effect: thickness off the trailing edge [m], [m/s], [s] */
@@ -76,7 +77,8 @@ double circuit_shot_film_thickness(const circuit_shot *s, const shot_forces *f, 
 double circuit_shot_film_temperature(const circuit_shot *s, const shot_forces *f,
                                      const circuit_shot_state *st);                                       /* [K] */
 double circuit_shot_rail_flux(const circuit_shot *s, const shot_forces *f, const circuit_shot_state *st); /* [W/m^2] */
-double circuit_shot_rail_sheet(const circuit_shot *s, const circuit_shot_state *st);                      /* [A/m] */
+status circuit_shot_rail_sheet_start(circuit_shot *s);
+double circuit_shot_rail_sheet(const circuit_shot *s, const circuit_shot_state *st); /* [A/m] */
 double circuit_shot_rail_behind_temperature(const circuit_shot *s, const shot_forces *f,
                                             const circuit_shot_state *st); /* [K] */
 void circuit_shot_limits_start(circuit_shot *s);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Temperatures at the contact, and how near armature and rail come to their limits. */
 #include "base/constants.h"
+#include "circuit/rails/perimeter.h"
 #include "circuit/shot_internal.h"
 
 #include <math.h>
 
-static const double GRAM_FORCE = 9.80665e-3;      /* [N] */
-static const double CURRENT_ON_INNER_FACE = 0.40; /* mean surface current over I/height, weighted with itself [1] */
+static const double GRAM_FORCE = 9.80665e-3;   /* [N] */
 static const double CURRENT_THAT_COUNTS = 0.1; /* of the peak so far: below, the contact's rule is not asked for [1] */
 
 /* ---- temperatures ---- */
@@ -94,9 +94,16 @@ double circuit_shot_rail_flux(const circuit_shot *s, const shot_forces *f, const
     return st->phase == CIRCUIT_SHOT_MOVING ? (1.0 - s->model.armature.heat_share) * contact_heat(s, f, st->v) : 0.0;
 }
 
+status circuit_shot_rail_sheet_start(circuit_shot *s)
+{
+    circuit_rail_section section;
+    TRY(circuit_rails_section(&s->rails, &section));
+    return circuit_perimeter_crowding(&section, &s->crowding);
+}
+
 double circuit_shot_rail_sheet(const circuit_shot *s, const circuit_shot_state *st)
 {
-    return CURRENT_ON_INNER_FACE * st->current / s->rails.height;
+    return s->crowding * st->current / s->rails.height;
 }
 
 /* Rail surface one contact length l behind the trailing edge, t = l/v (at most the shot's age) after the passage that

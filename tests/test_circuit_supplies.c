@@ -794,6 +794,23 @@ static void limits(void **state)
     circuit_shot_free(s);
 }
 
+/* The surface current of a rail just exposed goes with the section: (C-17)'s table. */
+static void surface_current_by_section(void **state)
+{
+    (void)state;
+    circuit_shot_module m = unit_200kJ(1, 0.0);
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+    for (int k = 0; k < 2; k++) {
+        c.rails.height = k ? 0.1 : 0.025;
+        c.options.max_time = 1e-4;
+        circuit_shot *s = run(&c);
+        const circuit_shot_state now = circuit_shot_now(s);
+        assert_near(now.rail_sheet * c.rails.height / now.current, k ? 0.665 : 0.400, 1e-3);
+        circuit_shot_free(s);
+    }
+}
+
 static bool temperatures_in_order(void *user, const circuit_shot *s, const circuit_shot_state *st)
 {
     (void)s;
@@ -850,6 +867,7 @@ int main(void)
         cmocka_unit_test(muzzle_shunt),
         cmocka_unit_test(small_currents_ring_alike),
         cmocka_unit_test(limits),
+        cmocka_unit_test(surface_current_by_section),
         cmocka_unit_test(temperatures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
