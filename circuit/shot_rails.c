@@ -160,6 +160,7 @@ static status warming_fit(const circuit_shot_rails *rails, circuit_rails_load *o
     circuit_rail_section section;
     TRY(circuit_rails_section(rails, &section));
     out->heat_capacity = rails->heat_capacity * section.rails * circuit_section_metal_area(&section);
+    if (rails->level == CIRCUIT_SHOT_RAILS_SKIN) out->even_resistance = circuit_section_resistance(&section);
     out->coefficient =
         rails->resistivity_coefficient / (1.0 + rails->resistivity_coefficient * (rails->initial_temperature - 293.15));
     return status_ok();

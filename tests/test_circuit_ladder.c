@@ -330,6 +330,18 @@ static void warming_of_even_current(void **state)
     assert_int_equal(circuit_rails_memory_size(&r), 2 * r.ladder.n); /* nothing is paid for what is not asked for */
 }
 
+/* The heat of a skin stays in it: with the even current's R_dc of a third the rise is three times as high. */
+static void warming_of_a_skin(void **state)
+{
+    (void)state;
+    const double memory[] = { 5e4, 5e4, 2e8 }, x = 2.0; /* E, E_c = R' G [J]; G [A^2 s m] */
+    circuit_rails_load r = { .ladder = { .R_dc = 2.5e-4, .L_inf = 5e-7 }, .heat_capacity = 3450.0 };
+    const double even = circuit_rails_memory_rise(&r, x, memory);
+    assert_close(even, 5e4 / (3450.0 * x), 1e-6);
+    r.even_resistance = 2.5e-4 / 3.0;
+    assert_close(circuit_rails_memory_rise(&r, x, memory), 3.0 * even, 1e-12);
+}
+
 /* ---- whole shots ---- */
 
 typedef struct {
@@ -408,6 +420,28 @@ static void levels_agree(void **state)
     assert_true(shoot(&c, &w).muzzle_velocity == bare);
 }
 
+/* Level skin and the same gradients given are one shot, until slices warm: those of a skin warm more. */
+static void skin_warms_more(void **state)
+{
+    (void)state;
+    circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
+    double v[2][2];
+    for (int slices = 0; slices < 2; slices++) {
+        circuit_shot_config c = default_shot(modules);
+        watch w;
+        c.rails.level = CIRCUIT_SHOT_RAILS_SKIN;
+        c.rails.frequency = 300.0;
+        c.rails.slices = slices;
+        v[slices][0] = shoot(&c, &w).muzzle_velocity;
+        OK(circuit_rails_impedance(&c.rails, 300.0, &c.rails.inductance_gradient, &c.rails.resistance_gradient));
+        c.rails.level = CIRCUIT_SHOT_RAILS_CONSTANT;
+        v[slices][1] = shoot(&c, &w).muzzle_velocity;
+    }
+    print_message("one slice: skin %.2f -> %.2f m/s, as given %.2f -> %.2f m/s\n", v[0][0], v[1][0], v[0][1], v[1][1]);
+    assert_true(v[0][0] == v[0][1]);
+    assert_true(v[0][0] - v[1][0] > 1.5 * (v[0][1] - v[1][1]) && v[1][1] < v[0][1]); /* R'/R_dc is 2 there */
+}
+
 /* Slices with their own temperature take 0.7 % of the muzzle velocity; one is as good as eight to 0.04 %. */
 static circuit_shot_summary at_tolerance(circuit_shot_config c, double tolerance)
 {
@@ -470,7 +504,9 @@ int main(void)
         cmocka_unit_test(power_balance),
         cmocka_unit_test(diffusing_shot),
         cmocka_unit_test(levels_agree),
+        cmocka_unit_test(skin_warms_more),
         cmocka_unit_test(warming_of_even_current),
+        cmocka_unit_test(warming_of_a_skin),
         cmocka_unit_test(warm_slices),
         cmocka_unit_test(few_steps),
     };

@@ -90,6 +90,13 @@ static void direct_current(void **state)
     OK(circuit_inductance_at(&SECTION, 0.01, FINE, &L1, &R1));
     assert_close(R, 2.0 * COPPER / (0.020 * 0.025), 1e-6);
     assert_close(L1, L, 1e-6);
+    for (int k = 0; k < 3; k++) { /* a pair, four, and a pair with a layer that carries a tenth of what copper would */
+        circuit_rail_section s = pair(0.020, 0.020, 0.025);
+        s.rails = k == 1 ? 4 : 2;
+        s.cladding = k == 2 ? 0.002 : 0.0, s.cladding_resistivity = 10.0 * COPPER;
+        OK(circuit_inductance_at(&s, 0.0, 2.0, &L, &R));
+        assert_close(R, circuit_section_resistance(&s), 1e-5);
+    }
 }
 
 /* The two solutions meet where one takes over (skin depth = largest side/1000).  A surface impedance does not know that

@@ -63,8 +63,9 @@ void circuit_rails_memory_scale(const circuit_rails_load *r, double x, double I,
 double circuit_rails_memory_rise(const circuit_rails_load *r, double x, const double *memory)
 {
     const double *heat = memory + 2 * r->ladder.n, E = heat[0], E_c = heat[1], G = fmax(heat[2], 0.0);
-    if (!(x > 0.0 && r->ladder.R_dc > 0.0)) return 0.0;
-    return E * E_c / (r->ladder.R_dc * r->heat_capacity * x * (G + LEAST_ACTION));
+    const double R_dc = r->even_resistance > 0.0 ? r->even_resistance : r->ladder.R_dc;
+    if (!(x > 0.0 && R_dc > 0.0)) return 0.0;
+    return E * E_c / (R_dc * r->heat_capacity * x * (G + LEAST_ACTION));
 }
 
 double circuit_rails_warming(const circuit_rails_load *r, double x, const double *memory)

@@ -11,6 +11,7 @@
  * With a heat capacity, the slices summed up in one memory share a temperature of their own, from their heat E, the
  * heat E_c that their cold resistance would have made, and the length-weighted action G = int x I^2 dt:
  *   rise = E/(C x) E_c/(R_dc G),  R_dc and R_k times 1 + coefficient rise                               (C-24)
+ * R_dc: of even current, the ladder's own but where that has the R' of a skin for it.
  * The second factor is all the metal over the area that carries the current, in the mean over the action so far.
  * Laws, for any I(t) and any v >= 0: V_rails I = d(field)/dt + heat + F v, field = 1/2 L_inf x I^2 + 1/2 sum L_k W_k;
  * every part of the heat and of the force is 0 or more. */
@@ -29,6 +30,7 @@ typedef struct {
     circuit_sliding_contact contact; /* over which the current comes into the rail */
     double heat_capacity;            /* C, of all the metal in a length [J/m/K]; 0: the rails keep their resistance */
     double coefficient;              /* relative rise of the resistance [1/K] */
+    double even_resistance;          /* R_dc of (C-24) [ohm/m]; 0: the ladder's */
 } circuit_rails_load;
 
 /* What the circuit sees; the current's slope comes on top: V = inductance dI/dt + voltage [V]. */

@@ -40,6 +40,13 @@ double circuit_section_metal_area(const circuit_rail_section *s)
     return s->height * s->thickness - lost_area(s->height, s->face_crown) - lost_area(s->height, s->back_crown);
 }
 
+double circuit_section_resistance(const circuit_rail_section *s)
+{
+    const double clad = s->cladding * s->height, metal = circuit_section_metal_area(s) - clad;
+    const double conductance = metal / s->resistivity + (clad > 0.0 ? clad / s->cladding_resistivity : 0.0);
+    return 4.0 / (s->rails * conductance);
+}
+
 status circuit_section_check(const circuit_rail_section *s)
 {
     const double h = s->height, w = s->thickness, edge = w - s->face_crown - s->back_crown;

@@ -36,6 +36,7 @@ circuit_section_check(const circuit_rail_section *s); /* BASE_STATUS_BAD_INPUT n
 double circuit_section_face(const circuit_rail_section *s, double y); /* x of the bore face at |y| <= h/2 [m] */
 double circuit_section_back(const circuit_rail_section *s, double y);
 double circuit_section_metal_area(const circuit_rail_section *s); /* of one rail [m^2] */
+double circuit_section_resistance(const circuit_rail_section *s); /* of all as one loop, to direct current [ohm/m] */
 
 /* Lines y[0] = h/2 > y[1] > .. > y[n] = 0 across a face: rows grow from `first` [m] by `growth`, and span no more than
  * `step` radians of the more curved face's arc.  Returns n; `y` must hold n + 1 <= CIRCUIT_SECTION_MAX_ROWS + 1.  More
