@@ -105,7 +105,8 @@ static void velocity_at_least_energy(void **state)
     assert_true(r.after < r.before && r.stored_energy == r.after);
 }
 
-/* At level skin without a frequency the rails' gradients go with the firing times: the search's shots have those too. */
+/* At level skin without a frequency the rails' gradients go with the firing times: the search's shots
+ * have those too. */
 static void gradients_by_firing_times(void **state)
 {
     (void)state;

@@ -690,8 +690,8 @@ static bool few_steps(void *user, const circuit_shot *s, const circuit_shot_stat
     return circuit_shot_result(s).steps < *(const uint64_t *)user;
 }
 
-/* The ring of a small laboratory bank past a contact of 2 V and a shunt, 220 A at most, and its copy of 1.1 MA: impedances
- * over 100, voltages times 50.  Both take about as many steps. */
+/* The ring of a small laboratory bank past a contact of 2 V and a shunt, 220 A at most, and its copy of 1.1 MA:
+ * impedances over 100, voltages times 50.  Both take about as many steps. */
 static void small_currents_ring_alike(void **state)
 {
     (void)state;

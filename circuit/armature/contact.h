@@ -9,8 +9,8 @@
  * with Mittag-Leffler's function: even where the contact is shorter than d, (2/3) exp(x/d) where it is much longer, all
  * at the trailing edge where r = 0.  young1982 found the same one parameter, l^3 v over resistivities, for a laminated
  * armature, whose laminations are such an interface.
- * r is taken from the contact voltage, r = (V_c/2) area/I: half of it on each face, over the mean current density.  Where
- * n = 4 faces have I/2 each, area is that of the two side by side, n/2 faces.
+ * r is taken from the contact voltage, r = (V_c/2) area/I: half of it on each face, over the mean current density.
+ * Where n = 4 faces have I/2 each, area is that of the two side by side, n/2 faces.
  * The armature's own skin is not in it: its current has had a millisecond, the rail's a few microseconds.
  * young1982: F. J. Young, W. F. Hughes, IEEE Trans. Magn. 18 (1982) 33. */
 #ifndef BREECH_CIRCUIT_CONTACT_H

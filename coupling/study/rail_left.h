@@ -6,7 +6,8 @@
  *   h = k p l = k N/w                                                                              (O-6) [m]
  * N the force of one face.  N/w, added up over the shots, is all that has to be carried on: it wears the top layer
  * through, then the next one.  A layer without a wear_rate stays, and so does all below it.
- * Metal: what the faces melt off (M(x) by the place x) is left behind them, an equal part on each of the n rails, spread over a face:
+ * Metal: what the faces melt off (M(x) by the place x) is left behind them, an equal part on each of
+ * the n rails, spread over a face:
  *   d = (M(x + l/2) - M(x - l/2)) / (n rho w l)                                                    (O-7) [m]
  * as a thickness of solid armature.  All that melts is left: what leaves in front is run over, what burns or is blown
  * off is for the case to say (study.deposit_kept). */
