@@ -163,6 +163,13 @@ static void test_gas(void **state)
     near(2.5e5 * mpm_gas_molar_volume(&gas, 2.5e5) / (R * 288.0), 0.97, 0.005);
     for (double p = 1e4; p < 1.5e6; p *= 1.3) near(mpm_gas_pressure(&gas, mpm_gas_molar_volume(&gas, p)), p, 1e-11);
     assert_true(mpm_gas_condenses(&gas) > 1.65e6 && mpm_gas_condenses(&gas) < pc);
+    /* dense gas: CO2 above its critical temperature, and up to where it condenses below.  The pressure is as good as
+     * the molar volume's rounding, times p'(v) v/p, 5e4 at most here. */
+    for (double T = 280.0; T < 400.0; T += 8.0) {
+        const mpm_gas co2 = mpm_gas_make(T, 304.13, 7.377e6);
+        for (double p = 1e5; p < fmin(1e10, mpm_gas_condenses(&co2)); p *= 1.1)
+            near(mpm_gas_pressure(&co2, mpm_gas_molar_volume(&co2, p)), p, 1e-10);
+    }
 }
 
 /* ---- growth, vent ---- */

@@ -40,15 +40,19 @@ double mpm_gas_condenses(const mpm_gas *g)
     return v > g->b ? mpm_gas_pressure(g, v) : INFINITY;
 }
 
-/* Newton's method from above, where the pressure is convex; an ideal gas is there at once. */
+/* Newton's method from above.  The pressure is convex there only far from b: a step that leaves the interval in which
+ * the root lies is replaced by half of that interval.  Above the critical temperature a step may even end below b,
+ * where the pressure means nothing.  An ideal gas is there at once. */
 double mpm_gas_molar_volume(const mpm_gas *g, double pressure)
 {
-    enum { ITERATIONS = 100 };
-    double v = GAS_CONSTANT * g->temperature / pressure + g->b;
+    enum { ITERATIONS = 200 };
+    double v = GAS_CONSTANT * g->temperature / pressure + g->b, lo = turn(g), hi = v;
     for (int i = 0; i < ITERATIONS; i++) {
-        const double step = (mpm_gas_pressure(g, v) - pressure) / slope(g, v);
+        const double over = mpm_gas_pressure(g, v) - pressure, step = over / slope(g, v);
+        *(over > 0 ? &lo : &hi) = v;
         v -= step;
         if (fabs(step) < 1e-15 * v) break;
+        if (!(v > lo && v < hi)) v = 0.5 * (lo + hi);
     }
     return v;
 }

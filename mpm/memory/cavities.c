@@ -335,6 +335,11 @@ status mpm_cavities_make(mpm *m)
         mpm_cavity_state *s = &c->state[k];
         s->volume = s->found;
         s->moles = s->volume / mpm_gas_molar_volume(&c->gas[k], is->pressure + is->ambient);
+        m->refused = (mpm_refused){ MPM_PART_CAVITY, k, "pressure" };
+        CHECK(isfinite(s->moles) && s->moles > 0, STATUS_BAD_INPUT,
+              "cavity `%s`: %g mol of gas in %g m3: its void is no larger than the points about it, or its gas has no "
+              "pressure of %g Pa at %g K",
+              is->name, s->moles, s->volume, is->pressure + is->ambient, is->temperature);
         set_pressure(m, k);
     }
     return status_ok();
