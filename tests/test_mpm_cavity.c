@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cavities: a plug on a spring of gas, a void in a block, a ring that swells until it bursts, bubbles that meet, what
  * is refused; the same bits on any number of threads and over a checkpoint. */
+#include "mpm/law/gas.h"
 #include "mpm_scenes.h"
 
 #define R GAS_CONSTANT
@@ -542,6 +543,38 @@ static void test_emptied(void **state)
     mpm_scene_free(&s);
 }
 
+/* CO2 at 280 K that a feed would make a liquid ends the scene where its isotherm turns, at 5 MPa; at 320 K, above the
+ * critical temperature, the same feed goes on to gas five times as dense. */
+static void test_condenses(void **state)
+{
+    (void)state;
+    const mpm_material m = scene_elastic();
+    mpm_scene s = { 0 };
+    plug_scene(&s, &m, 0);
+    mpm_cavity *c = &s.cavity[0];
+    c->temperature = 280, c->critical_temperature = 304.13, c->critical_pressure = 7.377e6, c->pressure = 3e6;
+    const mpm_gas gas = mpm_gas_make(280, 304.13, 7.377e6);
+    const double volume = 4e-9, n = volume / mpm_gas_molar_volume(&gas, 3.1e6); /* 1 mm2, 4 mm */
+    c->feed = 4 * n / 2e-6;
+    mpm *solver = scene_make(&s, 1);
+    assert_near(mpm_cavity_of(solver, 0)->moles, n, 1e-9 * n);
+    const status over = mpm_advance(solver, 2e-6, NULL);
+    const mpm_cavity_state *g = mpm_cavity_of(solver, 0);
+    print_message("condenses: at %.3f us, %.3f of its least volume\n", 1e6 * mpm_glance(solver).time,
+                  g->volume / (g->moles * gas.least));
+    assert_int_equal(over.code, STATUS_NUMERICAL);
+    assert_non_null(strstr(over.text, "a vapour needs more than"));
+    assert_near(g->volume / (g->moles * gas.least), 1, 0.05); /* a step's feed */
+    mpm_free(solver);
+    c->temperature = 320;
+    solver = scene_make(&s, 1);
+    const double before = mpm_cavity_of(solver, 0)->pressure;
+    assert_ok(mpm_advance(solver, 2e-6, NULL));
+    assert_true(mpm_cavity_of(solver, 0)->pressure > 2 * before);
+    mpm_free(solver);
+    mpm_scene_free(&s);
+}
+
 /* ---- what is refused ---- */
 
 /* By mpm_create, and by the check without it, which says where it is. */
@@ -608,6 +641,7 @@ int main(void)
         cmocka_unit_test(test_mirrored),
         cmocka_unit_test(test_open),
         cmocka_unit_test(test_emptied),
+        cmocka_unit_test(test_condenses),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

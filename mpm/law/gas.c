@@ -5,13 +5,6 @@
 
 #include <math.h>
 
-mpm_gas mpm_gas_make(double temperature, double critical_temperature, double critical_pressure)
-{
-    const double R = GAS_CONSTANT, Tc = critical_temperature, pc = critical_pressure;
-    if (isnan(Tc) || isnan(pc)) return (mpm_gas){ .temperature = temperature };
-    return (mpm_gas){ temperature, 0.42748 * R * R * pow(Tc, 2.5) / pc, 0.08664 * R * Tc / pc };
-}
-
 double mpm_gas_pressure(const mpm_gas *g, double v)
 {
     return GAS_CONSTANT * g->temperature / (v - g->b) - g->a / (sqrt(g->temperature) * v * (v + g->b));
@@ -34,10 +27,19 @@ static double turn(const mpm_gas *g)
     return lo;
 }
 
+mpm_gas mpm_gas_make(double temperature, double critical_temperature, double critical_pressure)
+{
+    const double R = GAS_CONSTANT, Tc = critical_temperature, pc = critical_pressure;
+    mpm_gas g = { .temperature = temperature };
+    if (isnan(Tc) || isnan(pc)) return g;
+    g.a = 0.42748 * R * R * pow(Tc, 2.5) / pc, g.b = 0.08664 * R * Tc / pc;
+    g.least = turn(&g);
+    return g;
+}
+
 double mpm_gas_condenses(const mpm_gas *g)
 {
-    const double v = g->a > 0 ? turn(g) : g->b;
-    return v > g->b ? mpm_gas_pressure(g, v) : INFINITY;
+    return g->least > g->b ? mpm_gas_pressure(g, g->least) : INFINITY;
 }
 
 /* Newton's method from above.  The pressure is convex there only far from b: a step that leaves the interval in which
@@ -46,7 +48,7 @@ double mpm_gas_condenses(const mpm_gas *g)
 double mpm_gas_molar_volume(const mpm_gas *g, double pressure)
 {
     enum { ITERATIONS = 200 };
-    double v = GAS_CONSTANT * g->temperature / pressure + g->b, lo = turn(g), hi = v;
+    double v = GAS_CONSTANT * g->temperature / pressure + g->b, lo = g->least, hi = v;
     for (int i = 0; i < ITERATIONS; i++) {
         const double over = mpm_gas_pressure(g, v) - pressure, step = over / slope(g, v);
         *(over > 0 ? &lo : &hi) = v;

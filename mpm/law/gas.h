@@ -8,6 +8,7 @@
 typedef struct {
     double temperature; /* [K] */
     double a, b;        /* [Pa m6 K^0.5/mol2, m3/mol] */
+    double least; /* volume of a mole below which it is no vapour: where p(v) turns; b where it has no turn [m3/mol] */
 } mpm_gas;
 
 /* Of a gas whose critical point is known; NAN, NAN: an ideal gas [K, K, Pa]. */

@@ -229,12 +229,21 @@ void mpm_cavities_look(mpm *m)
 
 /* ---- gas ---- */
 
-static void set_pressure(const mpm *m, int cavity)
+/* (G-6).  Beyond the turn of its isotherm the equation of state means nothing: its pressure falls below zero, and rises
+ * without limit towards b. */
+static status set_pressure(const mpm *m, int cavity)
 {
     mpm_cavity_state *s = &m->cavities->state[cavity];
-    const bool some = s->moles > 0 && s->joined < 0 && !s->open;
-    s->pressure =
-        some ? mpm_gas_pressure(&m->cavities->gas[cavity], s->volume / s->moles) - m->scene.cavity[cavity].ambient : 0;
+    const mpm_cavity *is = &m->scene.cavity[cavity];
+    const mpm_gas *g = &m->cavities->gas[cavity];
+    s->pressure = 0;
+    if (!(s->moles > 0) || s->joined >= 0 || s->open) return status_ok();
+    CHECK(s->volume > s->moles * g->least, STATUS_NUMERICAL,
+          "t = %g s: cavity `%s`: %g mol of gas at %g K in %g m3: a vapour needs more than %g m3, and no liquid is "
+          "computed: end the scene before, feed or squeeze less, or give a temperature above critical_temperature",
+          m->time, is->name, s->moles, is->temperature, s->volume, s->moles * g->least);
+    s->pressure = mpm_gas_pressure(g, s->volume / s->moles) - is->ambient;
+    return status_ok();
 }
 
 /* What a step's feed brings, or takes out where it is negative. */
@@ -270,7 +279,7 @@ status mpm_cavities_step(mpm *m)
             s->moles -= lost, s->lost += lost;
         }
     }
-    for (int k = 0; c && k < c->n; k++) set_pressure(m, k);
+    for (int k = 0; c && k < c->n; k++) TRY(set_pressure(m, k));
     return status_ok();
 }
 
@@ -340,7 +349,7 @@ status mpm_cavities_make(mpm *m)
               "cavity `%s`: %g mol of gas in %g m3: its void is no larger than the points about it, or its gas has no "
               "pressure of %g Pa at %g K",
               is->name, s->moles, s->volume, is->pressure + is->ambient, is->temperature);
-        set_pressure(m, k);
+        TRY(set_pressure(m, k));
     }
     return status_ok();
 }

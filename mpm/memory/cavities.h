@@ -29,8 +29,9 @@ struct mpm_cavities {
 status mpm_cavities_make(mpm *m); /* after the points; nothing where the scene has none */
 void mpm_cavities_free(mpm *m);
 status mpm_cavities_reserve(mpm *m); /* before the phase of nodes */
-status mpm_cavities_step(mpm *m);    /* after a step: volumes, gas, pressures, work; STATUS_NUMERICAL: no gas is left */
-void mpm_cavities_look(mpm *m);      /* every MPM_CAVITY_EVERY steps */
+status
+mpm_cavities_step(mpm *m); /* after a step: volumes, gas, pressures, work; STATUS_NUMERICAL: no gas, or no vapour */
+void mpm_cavities_look(mpm *m); /* every MPM_CAVITY_EVERY steps */
 size_t mpm_cavities_bytes(const mpm *m);
 void mpm_cavities_put(const mpm *m, char *to);
 void mpm_cavities_get(mpm *m, const char *from);
