@@ -96,11 +96,11 @@ static void for_every(const shelf *s, size_t kind, const char *const *name, int 
 
 static double flow_at(const law *k, double strain, double rate, double T)
 {
-    const double log_rate = log(fmax(rate * k->inv_rate0, 1)), T_star = (T - k->T_r) * k->inv_T_range;
+    const double log_rate = log(fmax(rate * k->inv_rate0, 1));
     const flow_state at = { .strain = vd_set(strain),
                             .log_rate = vd_set(log_rate),
                             .T = vd_set(T),
-                            .T_star = clamp01(vd_set(T_star)),
+                            .T_star = homologous(k, vd_set(T)),
                             .rho = vd_set(k->rho0) };
     return flow_stress(k, form(k), &at)[0];
 }

@@ -255,7 +255,7 @@ static double law_stress(const law *k, double e, double rate, double T)
     const flow_state at = { .strain = vd_set(e),
                             .log_rate = vd_set(log(fmax(rate * k->inv_rate0, 1))),
                             .T = vd_set(T),
-                            .T_star = clamp01(vd_set((T - k->T_r) * k->inv_T_range)),
+                            .T_star = homologous(k, vd_set(T)),
                             .rho = vd_set(k->rho0) };
     return flow_stress(k, law_form_of(k, k->kernel), &at)[0];
 }
@@ -510,6 +510,26 @@ static void test_melting(void **state)
         strain(&p, none, 1e-9);
         assert_near(p.q.T[0][0], want[i], EXACT * 1e4);
         assert_near(p.q.p[0][0], m.gruneisen * m.density * energy[i], EXACT * 1e13); /* at rho0 */
+    }
+}
+
+/* What has the heat of melting is at T_m or hotter, and its T* is 1, wherever T_m lies: to rounding, in the product and
+ * the quotient of c_v (T_m - T_r)/c_v, one in ten pairs with T_r = 293.15 K would stay solid while it melts. */
+static void test_molten_is_molten(void **state)
+{
+    (void)state;
+    mpm_material m = scene_copper();
+    m.latent_heat = 205e3, m.reference_temperature = 293.15;
+    for (int i = 0; i < 2000; i++) {
+        m.melting_temperature = 500 + 1.37 * i, m.specific_heat = 130 + 7.1 * (i % 100);
+        const law k = specimen_of(m, 0, 0, false).k;
+        const double melt = k.c_v * (k.T_m - k.T_r);
+        for (int j = 0; j < 3; j++) {
+            const vd T = temperature(&k, vd_set(melt + 0.5 * j * k.latent), vd_set(0), vd_set(0));
+            assert_true(T[0] >= k.T_m && T[0] < k.T_m * (1 + EXACT));
+            assert_true(homologous(&k, T)[0] == 1);
+        }
+        assert_below(temperature(&k, vd_set(0.999 * melt), vd_set(0), vd_set(0))[0], k.T_m);
     }
 }
 
@@ -941,6 +961,7 @@ int main(void)
         cmocka_unit_test(test_hugoniot),
         cmocka_unit_test(test_isentrope),
         cmocka_unit_test(test_melting),
+        cmocka_unit_test(test_molten_is_molten),
         cmocka_unit_test(test_hot_start),
         cmocka_unit_test(test_hugoniot_temperature),
         cmocka_unit_test(test_viscosity),

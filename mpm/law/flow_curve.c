@@ -24,7 +24,7 @@ static double stress_at(const law *k, double strain, double rate, double T, doub
     const flow_state at = { .strain = vd_set(strain),
                             .log_rate = vd_set(log_rate),
                             .T = vd_set(T),
-                            .T_star = clamp01(vd_set((T - k->T_r) * k->inv_T_range)),
+                            .T_star = homologous(k, vd_set(T)),
                             .p = vd_set(pressure),
                             .rho = vd_set(k->rho_start) };
     return flow_stress(k, law_form_of(k, k->kernel), &at)[0];

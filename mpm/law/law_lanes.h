@@ -40,7 +40,7 @@ LANE_INLINE vd power(vd x, double n)
 typedef struct {
     vd strain;    /* equivalent plastic strain, a law of strength gets it with the cold work before the scene [1] */
     vd log_rate;  /* ln(edot/edot0), at least 0 */
-    vd T, T_star; /* [K]; (T - T_r)/(T_m - T_r) in 0 .. 1 */
+    vd T, T_star; /* [K]; (T - T_r)/(T_m - T_r) in 0 .. 1, which is 1 of every molten point */
     vd p, rho;    /* without viscosity [Pa], [kg/m3]; only for a law whose shear VARIES */
 } flow_state;
 
@@ -131,14 +131,22 @@ LANE_INLINE vd damage_growth(const law *k, const failure_state *s)
     return vd_set(0);
 }
 
-/*   T = T_s + (e - e_s - stored)/c_v = T_r + (e - e_r - stored)/c_v, with a plateau while melting         (M-4) [K] */
+/* T* of molten points is 1 exactly, whatever (T - T_r)/(T_m - T_r) rounds to. */
+LANE_INLINE vd homologous(const law *k, vd T)
+{
+    return vd_select(vd_less(T, vd_set(k->T_m)), clamp01((T - k->T_r) * k->inv_T_range), vd_set(1));
+}
+
+/*   T = T_s + (e - e_s - stored)/c_v = T_r + (e - e_r - stored)/c_v, with a plateau while melting         (M-4) [K]
+ * The plateau is T_m itself: T_r + c_v (T_m - T_r)/c_v may round to less, which would count as solid. */
 LANE_INLINE vd temperature(const law *k, vd e, vd reference, vd stored)
 {
     const vd zero = vd_set(0);
     const double melt = k->c_v * (k->T_m - k->T_r);
     const vd thermal = e - reference - stored;
     const vd beyond = vd_max(thermal - melt - k->latent, zero);
-    return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, vd_set(1));
+    const vd least = vd_select(vd_less(thermal, vd_set(melt)), vd_set(1), vd_set(k->T_m));
+    return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, least);
 }
 
 /* Elastic moduli: the body's, or each point's own where the law's shear VARIES. */
@@ -235,7 +243,7 @@ LANE_INLINE yielding radial_return(const law *k, law_form f, const elastic *m, c
     const vd zero = vd_set(0), square = 1.5 * square_norm(s);
     const vm failed = ~vd_less(vd_load(&q->damage[0][lane]), vd_set(1));
     yielding y = { .mises_square = square };
-    y.T_star = clamp01((vd_load(&q->T[0][lane]) - k->T_r) * k->inv_T_range);
+    y.T_star = homologous(k, vd_load(&q->T[0][lane]));
     const vd least = 0.9 * k->least_flow * (1 - y.T_star);
     y.any = contact || vm_bits(failed | ~vd_less(square, least * least));
     if (!y.any) return y;

@@ -29,7 +29,7 @@ status mpm_point_law_make(const mpm_material *m, double temperature, mpm_point_l
     const status made = mpm_law_make(&body, &scene, &k->law);
     k->form = law_form_of(&k->law, k->law.kernel);
     k->T = temperature;
-    k->T_star = fmin(fmax((temperature - k->law.T_r) * k->law.inv_T_range, 0), 1);
+    k->T_star = homologous(&k->law, vd_set(temperature))[0];
     k->mu = k->law.rho_start * k->law.volume0 - 1, k->e = k->law.e_start;
     if (made.code != STATUS_OK) free(k), *out = NULL;
     return made;
