@@ -5,6 +5,7 @@
  * Tolerances: where the law is algebraic, 1e-12 (vector exp and log are good to 4 units in the last place, and sums to
  * a few more); where it is integrated over N steps, what the order of the integration gives, said at each. */
 #define BREECH_ISA material_test
+#include "mpm/law/flow_curve.h"
 #include "mpm_scenes.h"
 
 #include "mpm/kernel/g2p.c"
@@ -840,6 +841,7 @@ static void test_steinberg_guinan(void **state)
     m.youngs_modulus = m.poisson = m.yield_A = NAN; /* not asked for */
     m.sg_G0 = 47.7e9, m.sg_A = 2.83e-11, m.sg_B = 3.77e-4, m.sg_Y0 = 0.12e9, m.sg_Y_max = 0.64e9, m.sg_beta = 36;
     m.sg_n = 0.45, m.sg_T_m0 = 1790, m.sg_a = 1.5, m.sg_g0 = 2.02;
+    m.melting_temperature = 1700;      /* above the law's own line without pressure: that is as given */
     static const double table[][6] = { /* p, eta, T, e -> G, sigma_y */
                                        { 0, 1, 300, 0, 4.77e10, 1.2e8 },
                                        { 0, 1, 800, 0.3, 3.870855e10, 2.956764079425e8 },
@@ -867,6 +869,48 @@ static void test_steinberg_guinan(void **state)
     strain(&p, L, 1e-8);
     assert_near(p.q.s[3][0] / (G * 1e-5), 1, 0.05); /* at the density and pressure of 800 K */
     assert_near(mises_of(&p), p.q.s[3][0] * sqrt(3), 1e-6 * mises_of(&p));
+}
+
+/* A melt without pressure has no strength, though the law's own line as given would have it solid: an aluminium whose
+ * file gives 750 K.  Under 5 GPa it is solid at 800 K. */
+static void test_steinberg_guinan_melts(void **state)
+{
+    (void)state;
+    mpm_material m = scene_copper();
+    m.strength = MPM_STRENGTH_steinberg_guinan, m.density = 2804, m.sound_speed = 5200, m.hugoniot_slope = 1.36;
+    m.gruneisen = 2.2, m.specific_heat = 848, m.melting_temperature = 750, m.latent_heat = 390e3;
+    m.sg_G0 = 26.7e9, m.sg_A = 6.5e-11, m.sg_B = 6.2e-4, m.sg_Y0 = 0.42e9, m.sg_Y_max = 0.81e9, m.sg_beta = 965;
+    m.sg_n = 0.1, m.sg_T_m0 = 1220, m.sg_a = 1.7, m.sg_g0 = 2.2;
+    static const struct {
+        double T, p;
+        bool solid;
+    } at[] = { { 740, 0, true }, { 749, 0, true }, { 751, 0, false }, { 800, 0, false }, { 800, 5e9, true } };
+    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+        mpm_flow_point curve[2];
+        const mpm_flow_test test = { .strain = 0.5,
+                                     .points = 1,
+                                     .rate = 1e5,
+                                     .temperature = at[i].T,
+                                     .pressure = at[i].p,
+                                     .cold_work = NAN,
+                                     .yield_scale = 1 };
+        assert_ok(mpm_flow_curve(&m, &test, curve));
+        for (int j = 0; j < 2; j++) assert_true(at[i].solid ? curve[j].stress > 3e8 : curve[j].stress == 0);
+    }
+    mpm_flow_point curve[21]; /* warms until it melts */
+    const mpm_flow_test hot = {
+        .strain = 2, .points = 20, .rate = 1e5, .temperature = 700, .cold_work = NAN, .yield_scale = 1, .heat = 0.9
+    };
+    assert_ok(mpm_flow_curve(&m, &hot, curve));
+    assert_true(curve[20].stress == 0 && curve[20].temperature > 750 && curve[20].temperature < 775);
+    const double L[9] = { 0, 1e5, 0, 0, 0, 0, 0, 0, 0 }; /* half molten */
+    specimen p = specimen_of(m, 0, 0, false);
+    for (int l = 0; l < LANES; l++)
+        p.q.e[0][l] = 848 * (750 - 293) + 0.5 * 390e3, p.q.rho[0][l] = 0.93 * 2804; /* nearly without pressure */
+    strain(&p, L, 1e-8);
+    assert_near(p.q.T[0][0], 750, 1e-9);
+    strain(&p, L, 1e-8);
+    assert_near(mises_of(&p), 0, 1e-6);
 }
 
 /* A failed point bears neither shear nor tension; squeezed, it bears pressure like any other.  Pulled it takes no
@@ -979,6 +1023,7 @@ int main(void)
         cmocka_unit_test(test_fluid_hugoniot),
         cmocka_unit_test(test_cavitation),
         cmocka_unit_test(test_steinberg_guinan),
+        cmocka_unit_test(test_steinberg_guinan_melts),
         cmocka_unit_test(test_failed),
         cmocka_unit_test(test_molten),
         cmocka_unit_test(test_guards),

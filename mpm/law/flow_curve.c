@@ -36,11 +36,11 @@ status mpm_flow_curve(const mpm_material *m, const mpm_flow_test *test, mpm_flow
     enum { STEPS = 20 }; /* from one point of the curve to the next */
     mpm_scene scene;
     mpm_scene_default(&scene);
-    const mpm_body body = { .material = m,
-                            .temperature = test->temperature,
-                            .pressure = test->pressure,
-                            .yield_scale = test->yield_scale,
-                            .cold_work = test->cold_work };
+    mpm_body body = { .material = m,
+                      .temperature = test->temperature,
+                      .pressure = test->pressure,
+                      .yield_scale = test->yield_scale,
+                      .cold_work = test->cold_work };
     law k;
     TRY(mpm_law_make(&body, &scene, &k));
     CHECK(k.shear != MPM_SHEAR_NONE, STATUS_BAD_INPUT, "%.40s is a fluid: it has no flow stress", m->name);
@@ -48,6 +48,10 @@ status mpm_flow_curve(const mpm_material *m, const mpm_flow_test *test, mpm_flow
     double T = test->temperature, strain = 0;
     for (int i = 0; i <= test->points; i++) {
         strain = i * STEPS * d;
+        if (T != body.temperature) { /* as dense as it is now under that pressure */
+            body.temperature = T;
+            TRY(mpm_law_make(&body, &scene, &k));
+        }
         curve[i] = (mpm_flow_point){ strain, stress_at(&k, strain, test->rate, T, test->pressure), T };
         for (int j = 0; j < STEPS; j++, strain += d) {
             const double half = T + 0.5 * warm * d * stress_at(&k, strain, test->rate, T, test->pressure);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+static double compression_at(const law *k, double thermal, double pressure, double *e);
+
 #define LAW_DERIVE
 #include "mpm/law/eos.def"
 #include "mpm/law/failure.def"
@@ -69,25 +71,32 @@ static double pressure_at(const law *k, double mu, double thermal)
     return mpm_law_pressure(k, mu, thermal + reference_at(k, mu));
 }
 
-/* Energy and density of the body at its temperature and pressure: simple iteration with the slope K0. */
-static status start_at(law *k, const mpm_body *body)
+/* rho/rho0 - 1 and the energy *e at a thermal energy and a pressure: simple iteration with the slope K0. */
+static double compression_at(const law *k, double thermal, double pressure, double *e)
 {
     enum { ITERATIONS = 200 };
-    const double temperature = body->temperature, pressure = isnan(body->pressure) ? k->p_rest : body->pressure;
-    const double thermal = k->c_v * (temperature - k->T_r) + (temperature > k->T_m ? k->latent : 0);
     double mu = 0;
-    k->e_start = thermal;
+    *e = thermal;
     for (int i = 0; i < ITERATIONS; i++) {
-        mu = fmin(fmax(mu - (mpm_law_pressure(k, mu, k->e_start) - pressure) / k->K0, k->mu_least), k->mu_most);
-        k->e_start = thermal + reference_at(k, mu);
+        mu = fmin(fmax(mu - (mpm_law_pressure(k, mu, *e) - pressure) / k->K0, k->mu_least), k->mu_most);
+        *e = thermal + reference_at(k, mu);
     }
     /* Of a hot gas that does not converge: bisection. */
     double lo = k->mu_least, hi = k->mu_most;
-    for (int i = 0; i < ITERATIONS && fabs(mpm_law_pressure(k, mu, k->e_start) - pressure) > 1e-9 * k->K0; i++) {
+    for (int i = 0; i < ITERATIONS && fabs(mpm_law_pressure(k, mu, *e) - pressure) > 1e-9 * k->K0; i++) {
         mu = 0.5 * (lo + hi);
-        k->e_start = thermal + reference_at(k, mu);
-        *(mpm_law_pressure(k, mu, k->e_start) > pressure ? &hi : &lo) = mu;
+        *e = thermal + reference_at(k, mu);
+        *(mpm_law_pressure(k, mu, *e) > pressure ? &hi : &lo) = mu;
     }
+    return mu;
+}
+
+/* Energy and density of the body at its temperature and pressure. */
+static status start_at(law *k, const mpm_body *body)
+{
+    const double temperature = body->temperature, pressure = isnan(body->pressure) ? k->p_rest : body->pressure;
+    const double thermal = k->c_v * (temperature - k->T_r) + (temperature > k->T_m ? k->latent : 0);
+    const double mu = compression_at(k, thermal, pressure, &k->e_start);
     CHECK(isnan(body->pressure) || fabs(mpm_law_pressure(k, mu, k->e_start) - pressure) < 1e-6 * k->K0,
           STATUS_BAD_INPUT, "body `%s`: at %g K its equation of state has pressures of %.4g to %.4g Pa, not %.4g Pa",
           body->name, temperature, pressure_at(k, k->mu_least, thermal), pressure_at(k, k->mu_most, thermal), pressure);

@@ -2,7 +2,9 @@
 /* Steinberg, Cochran, Guinan, J. Appl. Phys. 51 (1980) 1498:                                               (M-24)
  *   G = G0 [1 + A p/eta^(1/3) - B (T - 300 K)],   eta = rho/rho0
  *   sigma_y = min(Y0 [1 + beta (e + e_0)]^n, Y_max) G/G0  [Pa]
- *   zero beyond T_m = T_m0 exp[2 a (1 - 1/eta)] eta^(2 (g0 - a - 1/3))
+ *   zero beyond T_m0 f(eta),   f = exp[2 a (1 - 1/eta)] eta^(2 (g0 - a - 1/3)),   T_m0 at most T_m/f(eta_m)
+ * with eta_m where the metal has its melting temperature T_m without pressure: so a melt without pressure, or in
+ * tension, has no strength, whatever T_m0 is, and under pressure the metal melts at more than T_m, as the law says.
  * Without a rate: meant for more than 1e5/s.  G is at least 5 % of G0, so that plastic strain stays finite; a melt has
  * no deviator because sigma_y = 0. */
 STRENGTH(steinberg_guinan, VARIES, "Steinberg-Guinan (M-24)")
@@ -30,6 +32,10 @@ static const double STEINBERG_GUINAN_T = 300, STEINBERG_GUINAN_SOFTEST = 0.05;
 #ifdef LAW_DERIVE
 static status strength_steinberg_guinan_derive(law *k, const mpm_material *m, double scale)
 {
+    const double eta_power = 2 * (m->sg_g0 - m->sg_a - 1.0 / 3.0);
+    double e; /* as it begins to melt */
+    const double eta_m = 1 + compression_at(k, k->c_v * (k->T_m - k->T_r), 0, &e);
+    const double through = k->T_m / (exp(2 * m->sg_a * (1 - 1 / eta_m)) * pow(eta_m, eta_power));
     k->strength.steinberg_guinan = (strength_steinberg_guinan){ .G0 = m->sg_G0,
                                                                 .A = m->sg_A,
                                                                 .B = m->sg_B,
@@ -38,9 +44,9 @@ static status strength_steinberg_guinan_derive(law *k, const mpm_material *m, do
                                                                 .beta = m->sg_beta,
                                                                 .n = m->sg_n,
                                                                 .strain = m->sg_strain,
-                                                                .T_m0 = m->sg_T_m0,
+                                                                .T_m0 = fmin(m->sg_T_m0, through),
                                                                 .a = m->sg_a,
-                                                                .eta_power = 2 * (m->sg_g0 - m->sg_a - 1.0 / 3.0),
+                                                                .eta_power = eta_power,
                                                                 .inv_rho0 = 1 / m->density };
     const double soft = fmax(1 - m->sg_B * (k->T_r - STEINBERG_GUINAN_T), STEINBERG_GUINAN_SOFTEST);
     k->G = m->sg_G0 * soft;
