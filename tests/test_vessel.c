@@ -138,6 +138,10 @@ static void test_damage(void **state)
     OK(mpm_point_law_make(&d.liquid, 288.0, &law));
     const double K = d.liquid.density * d.liquid.sound_speed * d.liquid.sound_speed / 7.0;
     near(mpm_point_law_compression(law, 1e8), pow(1.0 + 1e8 / K, 1.0 / 7.0), 1e-9);
+    for (double p = -0.5 * K; p < 100.0 * K;
+         p += 0.1 * K) /* far beyond what iteration with the slope at rest reaches */
+        near(mpm_point_law_compression(law, p), pow(1.0 + p / K, 1.0 / 7.0), 1e-8);
+    assert_true(isnan(mpm_point_law_compression(law, 1e4 * K)));
     mpm_point_law_free(law);
     case_inputs_free(d.in);
 }

@@ -71,17 +71,31 @@ double mpm_point_law_shear(const mpm_point_law *k)
     return k->law.G;
 }
 
-/* Simple iteration with the slope at rest. */
+/* How far the pressure at a compression is above one, at the temperature that stays [Pa] */
+static double pressure_over(const mpm_point_law *k, double mu, double pressure_wanted)
+{
+    const law *l = &k->law;
+    const vd at = vd_set(mu), rest = reference_energy(l, k->form, vd_set(k->mu));
+    const vd e = k->e - rest + reference_energy(l, k->form, at);
+    return pressure(l, k->form, at, vd_set(l->rho0 * (1 + mu)), e, vd_set(0))[0] - pressure_wanted;
+}
+
+/* Simple iteration with the slope at rest; bisection where that does not converge, beyond twice the stiffness at rest.
+ */
 double mpm_point_law_compression(const mpm_point_law *k, double at_pressure)
 {
     enum { ITERATIONS = 100 };
     const law *l = &k->law;
-    const double thermal = k->e - reference_energy(l, k->form, vd_set(k->mu))[0];
     double mu = k->mu, off = INFINITY;
     for (int i = 0; i < ITERATIONS && fabs(off) > 1e-13 * l->K0; i++) {
-        const vd e = thermal + reference_energy(l, k->form, vd_set(mu));
-        off = pressure(l, k->form, vd_set(mu), vd_set(l->rho0 * (1 + mu)), e, vd_set(0))[0] - at_pressure;
+        off = pressure_over(k, mu, at_pressure);
         mu = fmin(fmax(mu - off / l->K0, l->mu_least), l->mu_most);
     }
-    return (1 + mu) / (1 + k->mu);
+    double lo = l->mu_least, hi = l->mu_most;
+    for (int i = 0; i < ITERATIONS && !(fabs(off) < 1e-9 * l->K0); i++) {
+        mu = 0.5 * (lo + hi);
+        off = pressure_over(k, mu, at_pressure);
+        *(off > 0 ? &hi : &lo) = mu;
+    }
+    return fabs(off) < 1e-6 * l->K0 ? (1 + mu) / (1 + k->mu) : NAN;
 }

@@ -24,7 +24,7 @@ double mpm_point_law_flow(const mpm_point_law *k, const mpm_law_point *at); /* f
 /* What the last `plastic` of its strain adds to the damage [1]. */
 double mpm_point_law_damage(const mpm_point_law *k, const mpm_law_point *at, double plastic);
 double mpm_point_law_shear(const mpm_point_law *k); /* shear modulus at rest [Pa] */
-/* Density under a pressure over that without, at the same temperature [1]. */
+/* Density under a pressure over that without, at the same temperature; NAN: its law reaches no such pressure [1]. */
 double mpm_point_law_compression(const mpm_point_law *k, double pressure);
 
 #endif
