@@ -117,14 +117,21 @@ int mpm_scene_groups(const mpm_scene *s)
 
 static const double ALWAYS = 1e6; /* [s] */
 
+/* Do the axes' largest cells have room for cells so many times the smallest? */
+static bool is_room_for(const mpm_scene *s, int times)
+{
+    for (int k = 0; k < 3; k++)
+        if (s->axis[k].fine * times > s->axis[k].coarse * (1.0 + 1e-9)) return false;
+    return true;
+}
+
 void mpm_scene_levels_fill(mpm_scene *s)
 {
-    const double fine = s->axis[0].fine, coarse = s->axis[0].coarse * (1.0 + 1e-9);
     if (isnan(s->zone_until)) s->zone_until = s->refines > 0 ? 0.0 : ALWAYS;
     if (s->levels > 0) return;
     s->levels = 1;
     if (s->refines == 0 || s->basis != MPM_BASIS_GIMP) return;
-    while (s->levels < MPM_MAX_LEVELS && fine * (1 << s->levels) <= coarse) s->levels++;
+    while (s->levels < MPM_MAX_LEVELS && is_room_for(s, 1 << s->levels)) s->levels++;
 }
 
 static status duplicate(const void *from, int n, size_t size, void **to)

@@ -4,6 +4,25 @@
 
 #include "mpm/memory/store.h"
 
+/* ---- the level of a cell ---- */
+
+/* The coarsest whose cells are no larger along any axis. */
+static void test_level_for(void **state)
+{
+    (void)state;
+    mpm_scene s;
+    mpm_scene_default(&s);
+    s.levels = 4;
+    for (int wide = -1; wide < 3; wide++) {
+        for (int k = 0; k < 3; k++) s.axis[k].fine = k == wide ? 2e-3 : 1e-3;
+        const double fine = wide < 0 ? 1e-3 : 2e-3;
+        assert_int_equal(mpm_grids_level_for(&s, 0.5 * fine), 0); /* none is as small */
+        for (int level = 0; level < 6; level++)
+            assert_int_equal(mpm_grids_level_for(&s, fine * (1 << level)), level < 3 ? level : 3);
+        assert_int_equal(mpm_grids_level_for(&s, 3.9 * fine), 1);
+    }
+}
+
 /* ---- merging and splitting ---- */
 
 /* Any two neighbours in one: mass, volume, momentum and energy stay. */
@@ -466,12 +485,10 @@ static void test_surface(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_merge),     cmocka_unit_test(test_merge_undoes_halve),
-        cmocka_unit_test(test_kinds),     cmocka_unit_test(test_mean),
-        cmocka_unit_test(test_zone_cell), cmocka_unit_test(test_nesting),
-        cmocka_unit_test(test_estimate),  cmocka_unit_test(test_linear),
-        cmocka_unit_test(test_bits),      cmocka_unit_test(test_finest),
-        cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_level_for), cmocka_unit_test(test_merge),    cmocka_unit_test(test_merge_undoes_halve),
+        cmocka_unit_test(test_kinds),     cmocka_unit_test(test_mean),     cmocka_unit_test(test_zone_cell),
+        cmocka_unit_test(test_nesting),   cmocka_unit_test(test_estimate), cmocka_unit_test(test_linear),
+        cmocka_unit_test(test_bits),      cmocka_unit_test(test_finest),   cmocka_unit_test(test_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

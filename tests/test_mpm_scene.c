@@ -166,6 +166,9 @@ static void test_levels(void **state)
     mpm_scene filled = s;
     mpm_scene_levels_fill(&filled);
     assert_true(filled.levels == 3 && filled.zone_until == 0); /* fine, 2 and 4 times as large */
+    filled = s, filled.axis[1].fine *= 2; /* of 0.5 mm along x and z, 1 mm along y, and 2.05 mm at most */
+    mpm_scene_levels_fill(&filled);
+    assert_int_equal(filled.levels, 2);
     filled = s, filled.basis = MPM_BASIS_BSPLINE;
     mpm_scene_levels_fill(&filled);
     assert_int_equal(filled.levels, 1); /* which has no levels */

@@ -206,7 +206,8 @@ status mpm_grids_nest(grids *g)
 int mpm_grids_level_for(const mpm_scene *s, double cell)
 {
     int level = 0;
-    for (double h = 2 * s->axis[0].fine; h <= cell * (1 + 1e-9) && level < s->levels - 1; h *= 2) level++;
+    const double fine = fmax(s->axis[0].fine, fmax(s->axis[1].fine, s->axis[2].fine));
+    for (double h = 2 * fine; h <= cell * (1 + 1e-9) && level < s->levels - 1; h *= 2) level++;
     return level;
 }
 

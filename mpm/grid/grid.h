@@ -88,7 +88,7 @@ static inline int grids_flags(const grids *g)
     return g->pages * PAGE_FLAGS;
 }
 
-/* The coarsest level whose cells are no larger. */
+/* The coarsest level whose cells are no larger along any axis; the finest where there is none. */
 int mpm_grids_level_for(const mpm_scene *s, double cell);
 
 /* Finest level that is active at x; beyond the window as at its end. */
