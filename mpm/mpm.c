@@ -82,7 +82,8 @@ static bool unlike(const mpm *m, int a, int b)
 {
     const law *k = &m->laws[a], *l = &m->laws[b];
     const double e[2] = { m->effusivity[a], m->effusivity[b] };
-    return !(e[0] == e[1] || (isnan(e[0]) && isnan(e[1]))) || k->K0 != l->K0 || k->G != l->G || k->rho0 != l->rho0;
+    return !(e[0] == e[1] || (isnan(e[0]) && isnan(e[1]))) || k->K0 != l->K0 || k->G != l->G || k->rho0 != l->rho0 ||
+           k->p_start / k->rho_start != l->p_start / l->rho_start;
 }
 
 static touch_rule rule_from(const mpm_pair *p)

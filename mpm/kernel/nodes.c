@@ -203,27 +203,29 @@ static void take_holds(node_state *n, double dt, tally *sum)
     }
 }
 
+/* What goes on beyond an absorbing end. */
 typedef struct {
-    double p, s; /* of pressure and of shear waves [m/s] */
-} wave_speeds;
+    double p, s;  /* speeds of pressure and of shear waves [m/s] */
+    double start; /* pressure over density at the start [m2/s2] */
+} end_matter;
 
-static wave_speeds speeds_of(const law *k)
+static end_matter matter_of(const law *k)
 {
-    return (wave_speeds){ sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0), sqrt(k->G / k->rho0) };
+    return (end_matter){ sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0), sqrt(k->G / k->rho0), k->p_start / k->rho_start };
 }
 
 typedef struct {
-    wave_speeds speeds; /* times mass */
+    end_matter of; /* times mass */
     double mass;
-} wave_sums;
+} matter_sums;
 
-static void add_chain(const mpm *m, int head, wave_sums *sum)
+static void add_chain(const mpm *m, int head, matter_sums *sum)
 {
     for (int i = head; i >= 0; i = m->links[i].next) {
-        const wave_speeds of = speeds_of(&m->laws[m->links[i].body]);
+        const end_matter of = matter_of(&m->laws[m->links[i].body]);
         for (int l = 0; l < LANES; l++) {
             const double more = m->blocks[i].mass[0][l];
-            sum->mass += more, sum->speeds.p += more * of.p, sum->speeds.s += more * of.s;
+            sum->mass += more, sum->of.p += more * of.p, sum->of.s += more * of.s, sum->of.start += more * of.start;
         }
     }
 }
@@ -242,14 +244,14 @@ static int head_beside(const mpm *m, const brick *b, int cell, int which)
 
 /* At a node of a group with several materials: means by mass over the points of the node's own cell, of those around
  * it where it has none. */
-static wave_speeds speeds_at(const mpm *m, const brick *b, int cell)
+static end_matter matter_at(const mpm *m, const brick *b, int cell)
 {
-    wave_sums sum = { .mass = 0 };
-    if (!m->group[b->group].mixed) return speeds_of(group_law(m, b->group));
+    matter_sums sum = { .mass = 0 };
+    if (!m->group[b->group].mixed) return matter_of(group_law(m, b->group));
     add_chain(m, b->head[cell], &sum);
     for (int i = 0; i < NEIGHBOURS && b->head[cell] < 0; i++) add_chain(m, head_beside(m, b, cell, i), &sum);
-    if (!(sum.mass > 0)) return speeds_of(group_law(m, b->group));
-    return (wave_speeds){ sum.speeds.p / sum.mass, sum.speeds.s / sum.mass };
+    if (!(sum.mass > 0)) return matter_of(group_law(m, b->group));
+    return (end_matter){ sum.of.p / sum.mass, sum.of.s / sum.mass, sum.of.start / sum.mass };
 }
 
 #define BOUNDARY_ACTS

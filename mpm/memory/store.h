@@ -179,7 +179,7 @@ typedef struct {
     int first;              /* body */
     bool passes[MPM_FACES]; /* mpm_body.passes */
     bool held;              /* mpm_body.held */
-    bool mixed;             /* its bodies differ in what a node asks of its material: effusivity, wave speeds */
+    bool mixed; /* its bodies differ in what a node asks of them: effusivity, wave speeds, pressure at the start */
 } group_info;
 
 /* A contact as the kernels want it. */
