@@ -131,6 +131,31 @@ static status build_bodies(mpm *m)
     return status_ok();
 }
 
+static double loaded_area(const mpm *m, int body)
+{
+    double sum = 0;
+    for (int i = 0; i < m->bricks_used; i++)
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
+                for (int l = 0; l < LANES && m->links[q].body == body; l++) sum += m->blocks[q].area[0][l];
+    return sum;
+}
+
+/* A load without a surface would act on nothing. */
+static status check_loads(mpm *m)
+{
+    for (int i = 0; i < m->scene.bodies; i++) {
+        const mpm_body *b = &m->scene.body[i];
+        if (!mpm_build_is_loaded(b)) continue;
+        m->refused = (mpm_refused){ MPM_PART_BODY, i, "traction_face" };
+        CHECK(loaded_area(m, i) > 0, STATUS_BAD_INPUT,
+              "body `%s`: its traction or wave acts on nothing: none of its surface that looks towards %s lies in the "
+              "window, free of later bodies",
+              b->name, mpm_face_names[b->traction_face]);
+    }
+    return status_ok();
+}
+
 static status fill(mpm *m)
 {
     TRY(make_laws(m));
@@ -145,6 +170,7 @@ static status fill(mpm *m)
         TRY(mpm_refine_flags(m, &again)); /* as fine as the rules want it from the start */
         again = again && i < m->grids.levels;
     }
+    TRY(check_loads(m));
     TRY(mpm_cavities_make(m));
     return mpm_store_settle(m);
 }

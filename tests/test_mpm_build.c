@@ -340,13 +340,80 @@ static void test_read_all(void **state)
     mpm_free(m);
 }
 
+/* ---- the face that a traction acts on ---- */
+
+static double area_of(const mpm *m, int body)
+{
+    double area = 0;
+    for (int i = 0; i < m->bricks_used; i++)
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
+                for (int l = 0; l < LANES && m->links[q].body == body; l++) area += m->blocks[q].area[0][l];
+    return area;
+}
+
+/* Of a cylinder its end, of a ball its shadow, of a box all of its face to rounding.  Whole boxes by their middles give
+ * the cylinder 13 % too much at 1.5 cells a radius, and 3 % at 2 and 4. */
+static void test_loaded_area(void **state)
+{
+    (void)state;
+    static const double cells[] = { 1.5, 2, 4, 8 }, limit[] = { 0.015, 0.015, 0.006, 0.004 };
+    const mpm_material copper = scene_copper();
+    const double r = 1e-3, rod[] = { 0, -1e-3, 0, r, 2e-3 }, ball[] = { 0, 0, 0, r };
+    for (int i = 0; i < 4; i++)
+        for (int round = 0; round < 2; round++) {
+            SCENE_LOCAL(s);
+            window(&s, cells[i]);
+            mpm_body *b = scene_body(&s, round ? "sphere" : "cylinder", round ? ball : rod, round ? 4 : 5, &copper);
+            b->traction[1] = 1e6, b->traction_face = 3;
+            mpm *m = scene_make(&s, 1);
+            const double off = area_of(m, 0) / (SCENE_PI * r * r) - 1;
+            print_message("%s, %g cells a radius: area %+.4f\n", round ? "ball" : "rod", cells[i], off);
+            assert_near(off, 0, (round ? 3 : 1) * limit[i]);
+            mpm_free(m);
+        }
+    for (int face = 0; face < 6; face++) {
+        SCENE_LOCAL(s);
+        window(&s, 6.1);
+        mpm_body *b = scene_box(&s, -0.7e-3, -0.5e-3, -0.4e-3, 0.9e-3, 0.6e-3, 0.5e-3, &copper);
+        b->traction[0] = 1e6, b->traction_face = face;
+        mpm *m = scene_make(&s, 1);
+        const double side[3] = { 1.6e-3, 1.1e-3, 0.9e-3 };
+        assert_near(area_of(m, 0) / (side[(face / 2 + 1) % 3] * side[(face / 2 + 2) % 3]), 1, 1e-12);
+        mpm_free(m);
+    }
+}
+
+/* A later body takes its part of the face.  A face that it takes all of, or that lies beside the window, is refused. */
+static void test_covered_face(void **state)
+{
+    (void)state;
+    const mpm_material copper = scene_copper();
+    SCENE_LOCAL(s);
+    window(&s, 5);
+    mpm_body *b = scene_box(&s, -1e-3, -1e-3, -1e-3, 1e-3, 1e-3, 1e-3, &copper);
+    b->traction[1] = 1e6, b->traction_face = 3;
+    scene_box(&s, 0.03e-3, 0.5e-3, -1.1e-3, 1.1e-3, 1.1e-3, 1.1e-3, &copper);
+    mpm *m = scene_make(&s, 1);
+    assert_near(area_of(m, 0) / (1.03e-3 * 2e-3), 1, 0.025); /* half a part of a box is 0.024 */
+    mpm_free(m);
+    scene_box(&s, -1.1e-3, 0.5e-3, -1.1e-3, 1.1e-3, 1.1e-3, 1.1e-3, &copper);
+    status refused = mpm_create(&s, 1, &m);
+    assert_int_equal(refused.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(refused.text, "its traction or wave acts on nothing"));
+    s.bodies = 1, s.axis[1].hi = s.axis[1].fine_hi = 0.9e-3;
+    refused = mpm_create(&s, 1, &m);
+    assert_non_null(strstr(refused.text, "none of its surface that looks towards +y"));
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_read_all),   cmocka_unit_test(test_stress_order),
-                                        cmocka_unit_test(test_mass),       cmocka_unit_test(test_neighbours),
-                                        cmocka_unit_test(test_box),        cmocka_unit_test(test_overlap),
-                                        cmocka_unit_test(test_lattice),    cmocka_unit_test(test_seams),
-                                        cmocka_unit_test(test_sample),     cmocka_unit_test(test_estimate_of_many),
-                                        cmocka_unit_test(test_many_levels) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_read_all),    cmocka_unit_test(test_stress_order),
+                                        cmocka_unit_test(test_mass),        cmocka_unit_test(test_neighbours),
+                                        cmocka_unit_test(test_box),         cmocka_unit_test(test_overlap),
+                                        cmocka_unit_test(test_lattice),     cmocka_unit_test(test_seams),
+                                        cmocka_unit_test(test_sample),      cmocka_unit_test(test_estimate_of_many),
+                                        cmocka_unit_test(test_many_levels), cmocka_unit_test(test_loaded_area),
+                                        cmocka_unit_test(test_covered_face) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

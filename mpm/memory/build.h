@@ -35,6 +35,9 @@ status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g
 status mpm_build_sample(const mpm_scene *s, int body, const law *k, const grids *g, double most, const build_sink *sink,
                         double *share);
 
+/* Does a traction or a wave act on its surface towards traction_face? */
+bool mpm_build_is_loaded(const mpm_body *b);
+
 /* Largest speed of a body's points at the start that its spin gives [m/s]. */
 double mpm_build_spin_speed(const mpm_scene *s, int body);
 
