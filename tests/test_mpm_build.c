@@ -384,6 +384,26 @@ static void test_loaded_area(void **state)
     }
 }
 
+/* The face that a wave enters through: of the water in a tube. */
+static void test_wave_area(void **state)
+{
+    (void)state;
+    mpm_material water = scene_hydro();
+    water.strength = MPM_STRENGTH_none;
+    const double r = 1e-3, rod[] = { 0, -1e-3, 0, r, 2e-3 };
+    for (double cells = 4; cells <= 8; cells *= 2) {
+        SCENE_LOCAL(s);
+        window(&s, cells);
+        mpm_body *b = scene_body(&s, "cylinder", rod, 5, &water);
+        b->wave_pressure = 1e6, b->wave_decay = 1e-3, b->traction_face = 2;
+        mpm *m = scene_make(&s, 1);
+        const double off = area_of(m, 0) / (SCENE_PI * r * r) - 1;
+        print_message("water, %g cells a radius: area %+.4f\n", cells, off);
+        assert_near(off, 0, 0.004);
+        mpm_free(m);
+    }
+}
+
 /* A later body takes its part of the face.  A face that it takes all of, or that lies beside the window, is refused. */
 static void test_covered_face(void **state)
 {
@@ -408,12 +428,12 @@ static void test_covered_face(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_read_all),    cmocka_unit_test(test_stress_order),
-                                        cmocka_unit_test(test_mass),        cmocka_unit_test(test_neighbours),
-                                        cmocka_unit_test(test_box),         cmocka_unit_test(test_overlap),
-                                        cmocka_unit_test(test_lattice),     cmocka_unit_test(test_seams),
-                                        cmocka_unit_test(test_sample),      cmocka_unit_test(test_estimate_of_many),
-                                        cmocka_unit_test(test_many_levels), cmocka_unit_test(test_loaded_area),
-                                        cmocka_unit_test(test_covered_face) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_read_all),     cmocka_unit_test(test_stress_order),
+                                        cmocka_unit_test(test_mass),         cmocka_unit_test(test_neighbours),
+                                        cmocka_unit_test(test_box),          cmocka_unit_test(test_overlap),
+                                        cmocka_unit_test(test_lattice),      cmocka_unit_test(test_seams),
+                                        cmocka_unit_test(test_sample),       cmocka_unit_test(test_estimate_of_many),
+                                        cmocka_unit_test(test_many_levels),  cmocka_unit_test(test_loaded_area),
+                                        cmocka_unit_test(test_covered_face), cmocka_unit_test(test_wave_area) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

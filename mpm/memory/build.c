@@ -107,7 +107,7 @@ bool mpm_build_is_loaded(const mpm_body *b)
     return b->traction[0] != 0 || b->traction[1] != 0 || b->traction[2] != 0 || mpm_wave_is_wanted(b);
 }
 
-/* The face that the traction acts on, where it lies between a box's middle and the next one's: of PARTS x
+/* The face that the traction or the wave acts on, where it lies between a box's middle and the next one's: of PARTS x
  * PARTS columns through the box those that leave the solid there, as the box is cut in parts too.  A column's place
  * must be the body's own, that in the next box outside of its solid. */
 static double loaded_area(const mpm_scene *s, int body, const double x[3], const double size[3])
@@ -127,16 +127,6 @@ static double loaded_area(const mpm_scene *s, int body, const double x[3], const
         columns += !(depth_in(s, body, at) > -tiny);
     }
     return size[u] * size[v] * ((double)columns / (PARTS * PARTS));
-}
-
-/* Of a wave: of a box whose middle lies inside and the next one's outside, the part of its section that its share is. */
-static double wave_area(const mpm_scene *s, int body, const piece *box, double share)
-{
-    const int k = s->body[body].traction_face / 2;
-    double next[3] = { box->x[0], box->x[1], box->x[2] };
-    next[k] += s->body[body].traction_face % 2 ? box->size[k] : -box->size[k];
-    const bool ends = depth_in(s, body, box->x) > 0 && depth_in(s, body, next) <= 0;
-    return ends ? box->size[(k + 1) % 3] * box->size[(k + 2) % 3] * share : 0;
 }
 
 /* A body under way. */
@@ -177,8 +167,7 @@ static build_point point_of(const building *w, const piece *box, const piece *ow
     const int body = w->body;
     const mpm_body *b = &s->body[body];
     build_point p = { .mass = w->k->rho_start * own->share * box->size[0] * box->size[1] * box->size[2],
-                      .area = mpm_wave_is_wanted(b) ? wave_area(s, body, box, own->share)
-                                                    : loaded_area(s, body, box->x, box->size) };
+                      .area = loaded_area(s, body, box->x, box->size) };
     for (int q = 0; q < 3; q++) {
         p.x[q] = own->x[q];
         p.half[q] = 0.5 * own->size[q];
