@@ -73,11 +73,12 @@ def _thresholds_of_surfaces(run):
     figure = Figure(figsize=(7, 1 + 0.45 * len(ranking)), layout="constrained")
     axes = figure.subplots()
     speeds = [s["velocity"] for s in run.summary["scenes"]] + [run.summary["shot"]["muzzle_velocity"] or 0]
-    speeds += [v for one in ranking for v in (one["threshold_velocity"], *one["threshold_interval"]) if v is not None]
+    ends = [one["threshold_interval"] or (None, None) for one in ranking]
+    speeds += [v for one, interval in zip(ranking, ends) for v in (one["threshold_velocity"], *interval) if v is not None]
     known = [v for v in speeds if v > 0]  # the axis covers every interval and begins near the least of them
     bottom, top = 0.95 * min(known, default=0), 1.02 * max(known, default=1)
     for place, one in enumerate(ranking):
-        low, high = one["threshold_interval"]
+        low, high = ends[place]
         axes.barh(place, (top if high is None else high) - (low or bottom), left=low or bottom, color="tab:red", alpha=0.3)
         if one["threshold_velocity"] is not None:
             axes.plot(one["threshold_velocity"], place, "o", color="tab:red")
