@@ -48,7 +48,7 @@ struct circuit_shot {
     double t, rail_temperature, armature_temperature;
     double start_energy, exit_action;
     circuit_shot_rails rails; /* their section and metal, as given */
-    double crowding;          /* P of (C-17): mean surface current of a rail over I/height [1] */
+    double sheet;             /* P of (C-17): mean surface current of a rail over I/height [1] */
     circuit_shot_limits limits;
     circuit_lead_face lead_face;
     double worn, wear_rate, worn_until; /* velocity skin effect: thickness off the trailing edge [m], [m/s], [s] */

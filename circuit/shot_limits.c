@@ -98,12 +98,12 @@ status circuit_shot_rail_sheet_start(circuit_shot *s)
 {
     circuit_rail_section section;
     TRY(circuit_rails_section(&s->rails, &section));
-    return circuit_perimeter_crowding(&section, &s->crowding);
+    return circuit_perimeter_sheet(&section, &s->sheet);
 }
 
 double circuit_shot_rail_sheet(const circuit_shot *s, const circuit_shot_state *st)
 {
-    return s->crowding * st->current / s->rails.height;
+    return s->sheet * st->current / s->rails.height;
 }
 
 /* Rail surface one contact length l behind the trailing edge, t = l/v (at most the shot's age) after the passage that

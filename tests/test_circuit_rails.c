@@ -127,7 +127,7 @@ static void scaling_law(void **state)
 
 /* Mean surface current over I/h, from coarse panels and from the filaments' R' = 2 rho/depth K^2/I^2 P: within 4 %, the
  * skin of 0.2 mm's own part included; 0.40 in the default shot's section. */
-static void crowding_of_sections(void **state)
+static void sheet_of_sections(void **state)
 {
     (void)state;
     const circuit_rail_section flat[] = { pair(0.025, 0.02, 0.025), pair(0.1, 0.02, 0.025), pair(0.01, 0.01, 0.04),
@@ -137,7 +137,7 @@ static void crowding_of_sections(void **state)
         double P = 0.0, scaled = 0.0, L, R;
         if (k == 3) s.rails = 4;
         if (k == 4) s.face_crown = 0.005;
-        OK(circuit_perimeter_crowding(&s, &P));
+        OK(circuit_perimeter_sheet(&s, &P));
         OK(circuit_inductance_at(&s, 1e5, 2.0, &L, &R));
         const double by_filaments = 0.5 * s.height * R / sqrt(PI * MU0 * s.resistivity * 1e5);
         print_message("%g x %g x %g m, %d rails: %.4f, by filaments %.4f\n", s.height, s.thickness, s.separation,
@@ -146,7 +146,7 @@ static void crowding_of_sections(void **state)
         if (k == 0) assert_close(P, 0.40, 1e-6);
         s.height *= 2.0, s.thickness *= 2.0, s.separation *= 2.0, s.face_crown *= 2.0;
         s.cladding = 1e-3, s.cladding_resistivity = 5e-8;
-        OK(circuit_perimeter_crowding(&s, &scaled));
+        OK(circuit_perimeter_sheet(&s, &scaled));
         assert_close(scaled, P, 1e-9); /* the shape alone */
     }
 }
@@ -388,7 +388,7 @@ int main(void)
         cmocka_unit_test(scaling_law),
         cmocka_unit_test(levels_of_rails),
         cmocka_unit_test(parameter_tables),
-        cmocka_unit_test(crowding_of_sections),
+        cmocka_unit_test(sheet_of_sections),
         cmocka_unit_test(round_rods),
         cmocka_unit_test(rod_skin_effect),
         cmocka_unit_test(four_rods),

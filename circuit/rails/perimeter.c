@@ -7,6 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 /* K grows as r^(-1/3) towards a square corner: panels from `finest` of the side there, an arc's within `step`. */
@@ -16,8 +17,8 @@ typedef struct {
 static const grading FINE = { 1e-5, 1.16, 0.04 }, QUICK = { 1e-3, 1.5, 0.2 };
 enum { MAX_PANELS = 600, MAX_SIDE = 200 };
 
-/* QUICK's panels smear the corners about as a skin of a hundredth of the section does; the rest, so that rails of
- * 25 x 20 mm, 25 mm apart, have the 0.40 of their filaments at 100 kHz. */
+/* QUICK's panels round the corners off about as a skin of a hundredth of the section does.  ROUNDED makes up for the
+ * rest: rails of 25 x 20 mm, 25 mm apart, then have the 0.40 that filaments at 100 kHz give them. */
 static const double ROUNDED = 1.00186338;
 
 typedef struct {
@@ -121,17 +122,26 @@ static status outline_solve(const circuit_rail_section *s, const grading *g, out
     return st;
 }
 
+/* The current on the outline, and the sum of `weight` times its square: the skin's loss at 1 Hz, or 1. */
+static double sum_of_squares(const outline *o, const gsl_vector *K, bool of_loss, double *I)
+{
+    double sum = 0.0;
+    *I = 0.0;
+    for (int j = 0; j < o->n; j++) {
+        const double k = gsl_vector_get(K, (size_t)j), weight = of_loss ? sqrt(PI * MU0 * o->at[j].resistivity) : 1.0;
+        *I += k * o->at[j].length;
+        sum += weight * k * k * o->at[j].length;
+    }
+    return sum;
+}
+
 status circuit_perimeter_solve(const circuit_rail_section *s, double *L, double *skin)
 {
     outline o;
     gsl_vector *K;
+    double I;
     TRY(outline_solve(s, &FINE, &o, &K));
-    double I = 0.0, loss = 0.0;
-    for (int j = 0; j < o.n; j++) {
-        const double k = gsl_vector_get(K, (size_t)j);
-        I += k * o.at[j].length;
-        loss += sqrt(PI * MU0 * o.at[j].resistivity) * k * k * o.at[j].length;
-    }
+    const double loss = sum_of_squares(&o, K, true, &I);
     gsl_vector_free(K);
     *L = circuit_section_weight(s) / I;
     *skin = circuit_section_weight(s) * loss / (I * I);
@@ -139,18 +149,14 @@ status circuit_perimeter_solve(const circuit_rail_section *s, double *L, double 
 }
 
 /* Half of one rail has I: all of it, 2 I, is `rails`/2 times less than the whole current. */
-status circuit_perimeter_crowding(const circuit_rail_section *s, double *crowding)
+status circuit_perimeter_sheet(const circuit_rail_section *s, double *sheet)
 {
     outline o;
     gsl_vector *K;
+    double I;
     TRY(outline_solve(s, &QUICK, &o, &K));
-    double I = 0.0, squares = 0.0;
-    for (int j = 0; j < o.n; j++) {
-        const double k = gsl_vector_get(K, (size_t)j);
-        I += k * o.at[j].length;
-        squares += k * k * o.at[j].length;
-    }
+    const double squares = sum_of_squares(&o, K, false, &I);
     gsl_vector_free(K);
-    *crowding = ROUNDED * s->height * squares / (I * I * s->rails);
+    *sheet = ROUNDED * s->height * squares / (I * I * s->rails);
     return status_ok();
 }

@@ -13,6 +13,6 @@ status circuit_perimeter_solve(const circuit_rail_section *s, double *L, double 
 /* Mean surface current of a rail, weighted with itself, over the whole current by the rail's height; the metals
  * count for nothing in it.  To 1 % that of a skin of 1/100 of the section, 4 % where rails nearly touch; in less than
  * 1 ms [1]. */
-status circuit_perimeter_crowding(const circuit_rail_section *s, double *crowding);
+status circuit_perimeter_sheet(const circuit_rail_section *s, double *sheet);
 
 #endif

@@ -15,7 +15,8 @@
  *      At the end, a coarse scene far out on each side where none was looked at: does the function turn back?  Above
  *      half way to the end of the range; below where a search for a lower threshold would look (2 and 1), so that a
  *      second search from the same range has one scene less to compute.  If scenes run out before both sides are
- *      known, the answer is the coarse root, moved as far as the fine scenes on one side require.
+ *      known, the answer is the coarse root, moved as far as the fine scenes on one side require; on that side the
+ *      interval is open.
  *   3. Interval: the fine bracket, between decided scenes.  An `undecided` scene counts on the side of its excess but
  *      does not end the interval; that ends at the next decided scene, or where the line to it leaves the scatter; with
  *      a warning at the furthest scene of its side, if none of them decides.
@@ -23,8 +24,8 @@
  *      plan's fraction of the threshold if that is more, upwards by a fraction of its own.  For a threshold outside of
  *      the range, it is that fraction of the end where it was looked for.
  * Monotonicity is checked: a scene on the lower side at a higher velocity than one on the upper side widens the
- * interval over both and warns.  Velocities lie on the grid k * step, so that searches share scenes, and none is
- * computed twice.
+ * interval over both and warns; if it is the fastest of all, the upper end is not known.  Velocities lie on the grid
+ * k * step, so that searches share scenes, and none is computed twice.
  *
  * The search is a continuation.  It begins with a plan, names the scenes it needs, is told their answers in any order
  * and continues once it has all of them:

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a threshold owes to inputs of its scenes that are not well known: the search once more with each of them raised
- * by its stated uncertainty (study.strength_error, armature_error,
- * friction_error; 0: not asked for).
+ * by its stated uncertainty (study.strength_error, armature_error, friction_error; 0: not asked for).
  *
  * By as much as the threshold of the reference size then moves, the intervals of all sizes are widened: on either side
  * the allowance is the root of the sum of squares of what cells may change (threshold.h), of what the place of the grid
  * does (scatter.h), of all these and of what the case states without a search (study.interval_parts).
- * The searches are looked for from 0.6 to 1.6 of the threshold, have no whole craters, and go on side by side. */
+ * These searches go from 0.6 to 1.6 of the threshold, beyond the study's range too, have no whole craters, and go on
+ * side by side. */
 #ifndef BREECH_COUPLING_UNCERTAIN_H
 #define BREECH_COUPLING_UNCERTAIN_H
 
