@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The solver's step and its ledger. */
+#include "mpm/grid/face_depth.h"
 #include "mpm/law/contact.h"
 #include "mpm/memory/build.h"
 #include "mpm/memory/cavities.h"
@@ -103,7 +104,10 @@ static status make_groups(mpm *m)
     m->rule_of = calloc(n * n, sizeof *m->rule_of);
     m->contact = calloc((1 + SHARES) * n, sizeof *m->contact);
     m->force = calloc(n, sizeof *m->force);
-    CHECK(m->group && m->rule && m->rule_of && m->contact && m->force, STATUS_MEMORY, "no memory for %zu groups", n);
+    m->depths = n > 1 ? malloc(sizeof *m->depths) : NULL;
+    CHECK(m->group && m->rule && m->rule_of && m->contact && m->force && (m->depths || n < 2), STATUS_MEMORY,
+          "no memory for %zu groups", n);
+    if (m->depths) mpm_face_depths_make(m->depths);
     for (int i = s->bodies - 1; i >= 0; i--) {
         group_info *g = &m->group[s->body[i].group];
         g->first = i;
@@ -302,7 +306,7 @@ void mpm_free(mpm *m)
     free(m->waves), free(m->load);
     free(m->materials), free(m->laws), free(m->effusivity);
     free(m->body_report), free(m->peaks);
-    free(m->group), free(m->rule), free(m->rule_of);
+    free(m->group), free(m->rule), free(m->rule_of), free(m->depths);
     free(m->contact), free(m->force), free(m->scratch);
     mpm_grids_free(&m->grids);
     mpm_scene_free(&m->scene);

@@ -121,7 +121,6 @@ typedef struct {
     /* The planes of the grid, of all levels, moved along each axis by a share of the finest cell; the window's ends and
      * the bodies stay where they are [1] */
     double grid_shift[3];
-    double contact_gap;     /* groups touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis; /* material points a cell and axis, 2 or 3 */
     double courant;         /* of c + |v|, on each level by its own steps and cells */
     double end_time;        /* of the run, for whoever calls mpm_advance; NAN: not said [s] */
@@ -173,7 +172,6 @@ enum { MPM_BODY_KEYED = 8, MPM_AXIS_KEYED = 4, MPM_SCENE_KEYED = 1, MPM_SCENE_HA
     PARAM_DOUBLE(type, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),                         \
     PARAM_DOUBLE(type, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),                  \
     PARAM_INT(type, particles_per_axis, 2, 2, 3, "material points a cell and axis"),                              \
-    PARAM_DOUBLE(type, contact_gap, "1", 0.9, 0.0, 3.0, "bodies touch when nearer than this, in cells"),          \
     PARAM_ENUM(type, transfer, mpm_transfer_names, MPM_TRANSFER_TPIC, "how velocity goes between points and grid"),   \
     PARAM_ENUM(type, basis, mpm_basis_names, MPM_BASIS_GIMP, "shape functions"),                                      \
     PARAM_BOOL(type, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy")

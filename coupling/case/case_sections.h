@@ -190,7 +190,6 @@ typedef struct {
     double courant;                 /* of c + |v| [1] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
     int particles_per_axis;
-    double contact_gap; /* [cells] */
     mpm_transfer_kind transfer;
     mpm_basis_kind basis;
     bool heat_by_plastic_work;      /* (M-4); to here */

@@ -456,7 +456,6 @@ static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
     s->courant = from->courant;
     s->viscosity_linear = from->viscosity_linear;
     s->viscosity_quadratic = from->viscosity_quadratic;
-    s->contact_gap = from->contact_gap;
     s->transfer = from->transfer;
     s->basis = from->basis;
     s->levels = l->levels + l->halvings;

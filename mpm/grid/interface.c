@@ -391,7 +391,7 @@ static void add_from(brick *b, int cell, const brick *from, int from_cell, doubl
     }
     if (!b->across || !from->across) return;
     for (int i = 0; i < LINE; i++) to_extra[i] += share * extra[i];
-    for (int k = 0; k < 3; k++) to_extra[3 + k] += share * line[0] * off[k];
+    (void)off;
 }
 
 /* Sums of the node before or after one along axis k, NULL where its mass is not above `least`. */

@@ -6,6 +6,7 @@
  *   velocities before them, dt/2 f . v, less what the points had booked of it (p2g.c); that on those after them is
  *   the points'. */
 #include "mpm/kernel/kernels.h"
+#include "mpm/grid/face_depth.h"
 #include "mpm/law/contact.h"
 #include "mpm/memory/cavities.h"
 
@@ -290,6 +291,35 @@ typedef struct {
     double dt; /* [s] */
 } node_place;
 
+/* A plane across n at a node. */
+typedef struct {
+    double width;   /* of the cell along n [m] */
+    double part[3]; /* |n_k h_k| over it [1] */
+} face;
+
+/* The quadratic spline, w = 3/4 - d^2 within half a cell, (3/2 - |d|)^2/2 beyond. */
+static double depth_bspline(double r)
+{
+    if (r < 1.0 / 3) return 3 * r - 1.5;
+    double d = fmin(r - 2.0 / 3, 1.4);
+    for (int i = 0; i < 6; i++) {
+        const double e = 1.5 - d, w = d < 0.5 ? 0.75 - d * d : 0.5 * e * e, slope = d < 0.5 ? -2 * d : -e;
+        const double F = d < 0.5 ? 0.5 + 0.75 * d - d * d * d / 3 : 1 - e * e * e / 6;
+        d += (r - F / w) / (1 - F * slope / (w * w));
+        d = fmax(fmin(d, 1.49), -0.6);
+    }
+    return d;
+}
+
+/* Depth of the node below the face of a side whose outward normal is `out` times n, in widths of the cell along n. */
+static double depth_of(const mpm *m, const node_state *s, double out, const contact_touch *t, const face *of)
+{
+    const double area = out * dot(t->n, s->extra) * of->width, V = s->extra[3];
+    const bool bspline = m->scene.basis == MPM_BASIS_BSPLINE;
+    if (!(area > 1e-6 * V)) return bspline ? 1.5 : of->part[0] + of->part[1] + of->part[2]; /* no face at the node */
+    return bspline ? depth_bspline(V / area) : face_depth(m->depths, of->part, V / area);
+}
+
 /* The normal is the volume gradient of one side alone, `of` (mpm_pair.normal_of): behind the edge of the other a
  * difference of gradients tilts and reads sliding as approach.  Where that side has no surface at the node (deep
  * overlap) the difference must serve.  False: they do not touch. */
@@ -297,25 +327,26 @@ static bool geometry(const mpm *m, const node_state *a, const node_state *b, boo
                      contact_touch *t)
 {
     const double *h = at->h;
-    const node_state *of = of_b ? b : a;
+    const node_state *one = of_b ? b : a;
     double d[3];
-    for (int k = 0; k < 3; k++) d[k] = of_b ? -of->extra[k] : of->extra[k];
+    for (int k = 0; k < 3; k++) d[k] = of_b ? -one->extra[k] : one->extra[k];
     const double smallest = fmin(h[0], fmin(h[1], h[2]));
-    if (sqrt(dot(d, d)) * smallest < 0.05 * h[0] * h[1] * h[2] * fmin(1, of->m / (a->m + b->m)))
+    if (sqrt(dot(d, d)) * smallest < 0.05 * one->extra[3])
         for (int k = 0; k < 3; k++) d[k] = a->extra[k] - b->extra[k];
     for (int i = 0; i < at->wall_count; i++)
         if (at->walls[i].kind == MPM_BOUNDARY_SYMMETRY) d[at->walls[i].axis] = 0;
     const double length = sqrt(dot(d, d));
     if (!(length > 0)) return false;
-    double gap = 0, span = 0;
-    for (int k = 0; k < 3; k++) {
-        t->n[k] = d[k] / length;
-        gap += t->n[k] * (b->extra[3 + k] / b->m - a->extra[3 + k] / a->m);
-        span += t->n[k] * h[k] * t->n[k] * h[k];
-    }
-    t->area = length;
+    face of;
+    for (int k = 0; k < 3; k++) t->n[k] = d[k] / length, of.part[k] = fabs(t->n[k] * h[k]);
+    of.width = sqrt(dot(of.part, of.part));
+    for (int k = 0; k < 3; k++) of.part[k] /= of.width;
+    const double area[2] = { dot(t->n, a->extra), -dot(t->n, b->extra) };
+    t->area = fmax((b->m * area[0] + a->m * area[1]) / (a->m + b->m), 0); /* the lighter side's counts */
     t->shear = fmin(a->extra[6] / a->m, b->extra[6] / b->m) / sqrt(3);
-    return gap < m->scene.contact_gap * sqrt(span);
+    t->width = of.width;
+    t->gap = -of.width * (depth_of(m, a, 1, t, &of) + depth_of(m, b, -1, t, &of));
+    return true;
 }
 
 static double kinetic(const node_state *n)
@@ -360,9 +391,7 @@ static bool impulse(const touch_rule *rule, const contact_touch *t, double J[3])
 /* Sets the pair's velocities and its J; false where the two do not touch. */
 static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally *sum)
 {
-    static const double MASS_SCREEN = 1e-6;
     node_state *a = &t->a->state, *b = &t->b->state;
-    if (a->m < MASS_SCREEN * b->m || b->m < MASS_SCREEN * a->m) return false;
     const touch_rule *rule = touch_rule_of(m, t->a->brick->group, t->b->brick->group);
     const bool held[2] = { is_held(m, t->a), is_held(m, t->b) };
     if (held[0] && held[1]) return false;

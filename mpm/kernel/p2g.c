@@ -39,11 +39,10 @@ typedef struct {
     double yz[2][2][LANES]; /* weights' product, [z][y] */
 } __attribute__((aligned(64))) factors;
 
-/* What a block gives to contact lines, [axis][first or last node][point]: V grad w, m w (x_p - x_i); m flow stress;
- * m effusivity, in a group whose bodies differ in that.
- */
+/* What a block gives to contact lines: V grad w, [axis][first or last node][point]; V; m flow stress; m effusivity, in a
+ * group whose bodies differ in that. */
 typedef struct {
-    double gradient[3][2][LANES], moment[3][2][LANES], flow[LANES], heat[LANES];
+    double gradient[3][2][LANES], volume[LANES], flow[LANES], heat[LANES];
 } __attribute__((aligned(64))) contact_factors;
 
 LANE_INLINE void store_factors(factors *f, const weights w[3], int lane)
@@ -65,11 +64,11 @@ LANE_INLINE void store_lines(double (*to)[LINE], const vd row[LINE], int lane)
     }
 }
 
-/* Lanes of a contact line, all bits set: V grad S and m (x_p - x_i) along each axis, m flow stress, m effusivity. */
+/* Lanes of a contact line, all bits set: V grad S along each axis, V, m flow stress, m effusivity. */
 static const struct {
-    int64_t gradient[3][LINE], moment[3][LINE], flow[LINE], heat[LINE];
+    int64_t gradient[3][LINE], volume[LINE], flow[LINE], heat[LINE];
 } contact_kinds __attribute__((aligned(64))) = { { { -1 }, { 0, -1 }, { 0, 0, -1 } },
-                                                 { { 0, 0, 0, -1 }, { 0, 0, 0, 0, -1 }, { 0, 0, 0, 0, 0, -1 } },
+                                                 { 0, 0, 0, -1 },
                                                  { 0, 0, 0, 0, 0, 0, -1 },
                                                  { 0, 0, 0, 0, 0, 0, 0, -1 } };
 
@@ -192,10 +191,8 @@ LANE_INLINE void surface_of(const block *q, int lane, const weights w[3], contac
 {
     const vd m = AT(mass[0]), V = m / AT(rho[0]);
     for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 2; a++) {
-            vd_store(&n->gradient[k][a][lane], V * w[k].g[2 * a]);
-            vd_store(&n->moment[k][a][lane], -m * (w[k].w[2 * a] * w[k].d[2 * a]));
-        }
+        for (int a = 0; a < 2; a++) vd_store(&n->gradient[k][a][lane], V * w[k].g[2 * a]);
+    vd_store(&n->volume[lane], V);
     vd_store(&n->flow[lane], m * AT(flow[0]));
 #undef AT
 }
@@ -204,13 +201,13 @@ LANE_INLINE void surface_of(const block *q, int lane, const weights w[3], contac
 LANE_INLINE void contact_lines(const contact_factors *s, const factors *f, int part, int l, bool mixed, lines *n)
 {
     vd base = vd_where(kind_at(contact_kinds.flow, part), vd_set(s->flow[l]));
+    base = vd_select(kind_at(contact_kinds.volume, part), vd_set(s->volume[l]), base);
     if (mixed) base = vd_select(kind_at(contact_kinds.heat, part), vd_set(s->heat[l]), base);
     vd_store(&n->base[l][part], base);
     for (int a = 0; a < 2; a++) {
         vd q[3];
         for (int k = 0; k < 3; k++)
-            q[k] = vd_select(kind_at(contact_kinds.gradient[k], part), vd_set(s->gradient[k][a][l]),
-                             vd_where(kind_at(contact_kinds.moment[k], part), vd_set(s->moment[k][a][l])));
+            q[k] = vd_where(kind_at(contact_kinds.gradient[k], part), vd_set(s->gradient[k][a][l]));
         vd_store(&n->A[a][l][part], f->w[0][a][l] * base + q[0]);
         vd_store(&n->Y[a][l][part], q[1]);
         vd_store(&n->Z[a][l][part], q[2]);
@@ -309,7 +306,7 @@ static void fold_line(brick *b, int k, const int ghost[3], const int mirror[3], 
     b->sum.impulse_boundary[k] -= 2 * (from[1 + k] + dt * from[4 + k]);
     if (!b->meets) return;
     const double *surface = b->out_contact[source];
-    for (int i = 0; i < LINE; i++) b->out_contact[target][i] += i == k || i == 3 + k ? -surface[i] : surface[i];
+    for (int i = 0; i < LINE; i++) b->out_contact[target][i] += i == k ? -surface[i] : surface[i];
 }
 
 static void fold(const mpm *m, brick *b)

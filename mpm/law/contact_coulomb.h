@@ -13,16 +13,19 @@ CONTACT_VALUE(COULOMB_BOND_STRENGTH, "bond_strength", "Pa", 0.0, 0.0, 1e12,
 CONTACT_END(coulomb)
 
 #ifdef CONTACT_IMPULSE
+/* Beyond this gap, in widths of a cell, a bond is torn. */
+static const double COULOMB_BOND_REACH = 0.5;
+
 static inline bool contact_coulomb(const double *value, const contact_touch *t, double J[3])
 {
     const double bond = value[COULOMB_BOND_STRENGTH];
-    const double vn = dot(t->apart, t->n), v2 = dot(t->apart, t->apart);
-    if (bond > 0 && t->reduced * sqrt(v2) <= bond * t->area * t->dt) {
+    const double vn = dot(t->apart, t->n), v2 = dot(t->apart, t->apart), closing = contact_closing(t);
+    if (bond > 0 && t->gap < COULOMB_BOND_REACH * t->width && t->reduced * sqrt(v2) <= bond * t->area * t->dt) {
         for (int k = 0; k < 3; k++) J[k] = -t->reduced * t->apart[k];
         return true;
     }
-    if (!(vn < 0)) return false;
-    double vt[3], Jn = -t->reduced * vn;
+    if (!(closing < 0)) return false;
+    double vt[3], Jn = -t->reduced * closing;
     for (int k = 0; k < 3; k++) vt[k] = t->apart[k] - vn * t->n[k];
     const double slip = sqrt(dot(vt, vt));
     const double strength = fmin(value[COULOMB_SHEAR_LIMIT], t->shear);

@@ -7,8 +7,8 @@ CONTACT_END(frictionless)
 static inline bool contact_frictionless(const double *value, const contact_touch *t, double J[3])
 {
     (void)value;
-    const double vn = dot(t->apart, t->n);
-    for (int k = 0; k < 3; k++) J[k] = -t->reduced * vn * t->n[k];
-    return vn < 0;
+    const double closing = contact_closing(t);
+    for (int k = 0; k < 3; k++) J[k] = -t->reduced * closing * t->n[k];
+    return closing < 0;
 }
 #endif

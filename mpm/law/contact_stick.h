@@ -9,7 +9,8 @@ CONTACT_END(stick)
 static inline bool contact_stick(const double *value, const contact_touch *t, double J[3])
 {
     (void)value;
-    for (int k = 0; k < 3; k++) J[k] = -t->reduced * t->apart[k];
-    return dot(t->apart, t->n) < 0;
+    const double closing = contact_closing(t), left = closing - dot(t->apart, t->n); /* for the gap to close */
+    for (int k = 0; k < 3; k++) J[k] = -t->reduced * (t->apart[k] + left * t->n[k]);
+    return closing < 0;
 }
 #endif

@@ -206,6 +206,7 @@ struct mpm {
     grids grids;
     int groups;
     group_info *group;             /* [groups] */
+    struct face_depths *depths;    /* grid/face_depth.h; NULL: one group alone */
     touch_rule *rule;              /* [1 + scene.pairs] the first for two groups that no pair names */
     int *rule_of;                  /* [groups x groups] */
     struct mpm_cavities *cavities; /* memory/cavities.h; NULL: the scene has none */

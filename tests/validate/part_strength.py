@@ -37,8 +37,6 @@ MAP = [
     ("armature of 600 K, twice as strong", {"armature.temperature": "600 K", "armature.yield_scale": 2, "study.screen_low": 0}),
     ("friction 0.2", {"scene.friction": 0.2}),
     ("a film of melt: shear of at most 1.2 MPa", {"scene.shear_limit": "1.2 MPa"}),  # 1.3 mPa s at 950 m/s over 1 um
-    ("bodies touch at 0.5 cells, for 0.9", {"scene.contact_gap": 0.5}),
-    ("bodies touch at 1.5 cells", {"scene.contact_gap": 1.5}),
     ("grain of 0.1 mm", {"particle.radius": "0.1 mm"}),
     ("grain of 0.1 mm, not pressed on", {"particle.radius": "0.1 mm", "scene.contact_pressure": "0 Pa"}),
     ("grain of 0.1 mm, lead face at 15 degrees", {"particle.radius": "0.1 mm", "armature.lead_angle": "15 deg"}),
