@@ -349,17 +349,19 @@ static bool geometry(const mpm *m, const node_state *a, const node_state *b, boo
     return true;
 }
 
-/* A face at a node of little volume is known from few points: its normal may be off by some angle, and sliding along the
- * face then reads as approach.  What of the approach before the forces that angle could make is left out. */
-static void allow_for_tilt(const node_state *a, const node_state *b, const node_place *at, contact_touch *t)
+/* A body that reaches a node with a sliver alone shows it a face made of few points, so the normal may be off by some
+ * angle, and sliding along the face then reads as approach.  Of the approach before the forces it leaves out what that
+ * angle could make; the nodes beside it, which hold more of the body, stop a true one. */
+static void allow_for_tilt(const node_state *a, const node_state *b, contact_touch *t)
 {
-    static const double RAGGED = 0.01, TILT_MOST = 0.5;
-    const double share = fmin(a->extra[3], b->extra[3]) / (at->h[0] * at->h[1] * at->h[2]);
+    static const double RAGGED = 0.01, TILT_MOST = 0.5, SLIVER = 0.3; /* cells, 1, cells */
+    const double reach = sqrt(2 * fmin(a->extra[3], b->extra[3]) / (a->extra[3] + b->extra[3])); /* past the node */
+    if (reach >= SLIVER) return;
     double start[3], slip2 = 0;
     for (int k = 0; k < 3; k++) start[k] = b->v_start[k] - a->v_start[k];
     const double vn = dot(start, t->n);
     for (int k = 0; k < 3; k++) slip2 += (start[k] - vn * t->n[k]) * (start[k] - vn * t->n[k]);
-    const double read = fmin(RAGGED / sqrt(2 * share), TILT_MOST) * sqrt(slip2);
+    const double read = fmin(RAGGED / reach - RAGGED / SLIVER, TILT_MOST) * sqrt(slip2);
     const double change = fmax(-read, fmin(read, vn));
     for (int k = 0; k < 3; k++) t->apart[k] -= change * t->n[k];
 }
@@ -413,7 +415,7 @@ static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally 
     contact_touch c = { .reduced = held[0] ? b->m : held[1] ? a->m : a->m * b->m / (a->m + b->m), .dt = at->dt };
     if (!geometry(m, a, b, rule->normal_of_higher, at, &c)) return false;
     for (int k = 0; k < 3; k++) c.apart[k] = b->v[k] - a->v[k];
-    allow_for_tilt(a, b, at, &c);
+    allow_for_tilt(a, b, &c);
     if (!impulse(rule, &c, t->J)) return false;
     for (int k = 0; k < 3; k++) {
         if (held[0])

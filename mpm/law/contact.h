@@ -30,7 +30,7 @@ typedef struct {
  * counts as closed; the depths that it is found from agree to that on a face that is turned in the grid [m/s]. */
 static inline double contact_closing(const contact_touch *t)
 {
-    static const double CLOSED = 0.01;
+    static const double CLOSED = 0.02;
     const double vn = t->apart[0] * t->n[0] + t->apart[1] * t->n[1] + t->apart[2] * t->n[2];
     return vn + fmax(t->gap - CLOSED * t->width, 0) / t->dt;
 }
