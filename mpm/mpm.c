@@ -355,10 +355,11 @@ static void phase_nodes(mpm *m)
     const int due = coarsest_due(m), gathered = m->begins > due ? m->begins : due;
     const int nodes = sites_up_to(m, m->sites_to, due), interfaces = sites_up_to(m, m->interfaces_to, due);
     const int lines = sites_up_to(m, m->interfaces_to, gathered);
-    loop_runs of_lines, to_add, of_nodes, to_constrain, to_store;
+    loop_runs of_lines, to_add, of_nodes, to_touch, to_constrain, to_store;
     mpm_runs_even(&of_lines, m->threads, lines);
     mpm_runs_even(&to_add, m->threads, interfaces);
     mpm_runs_even(&of_nodes, m->threads, nodes);
+    mpm_runs_even(&to_touch, m->threads, nodes);
     mpm_runs_even(&to_constrain, m->threads, interfaces);
     mpm_runs_even(&to_store, m->threads, interfaces);
 #pragma omp parallel num_threads(m->threads)
@@ -375,6 +376,11 @@ static void phase_nodes(mpm *m)
 #pragma omp barrier
         for (int i, end; mpm_runs_take(&of_nodes, t, &i, &end);)
             for (; i < end; i++) m->kernel->nodes(m, m->site_list[i], t);
+        if (m->groups > 1) {
+#pragma omp barrier
+            for (int i, end; mpm_runs_take(&to_touch, t, &i, &end);)
+                for (; i < end; i++) m->kernel->touch(m, m->site_list[i], t);
+        }
 #pragma omp barrier
         for (int i, end; mpm_runs_take(&to_constrain, t, &i, &end);)
             for (; i < end; i++) mpm_interface_constrain(m, m->interface_list[i]);
@@ -468,6 +474,7 @@ static void collect_share(const mpm *m, int share, tally *sum)
     for (int i = share_begin(sites, share); i < share_begin(sites, share + 1); i++) {
         const tally *t = &m->site_sum[m->site_list[i]];
         add_nodes(sum, t);
+        sum->stranded = sum->stranded || t->stranded;
         add_vector(sum->impulse_external, t->impulse_external);
         if (t->shared) add_contact(m, m->site_list[i], contact);
     }
@@ -492,7 +499,7 @@ static void take_peaks(mpm *m)
 
 static status check_share(const mpm *m, const tally *t)
 {
-    CHECK(!t->stranded, STATUS_MEMORY, "t = %g s: no memory for the points that change their cells", m->time);
+    CHECK(!t->stranded, STATUS_MEMORY, "t = %g s: no memory for points that change their cells, or for contacts", m->time);
     if (t->bad_block < 0) return status_ok();
     const block *q = &m->blocks[t->bad_block];
     const int l = t->bad_lane;
@@ -596,7 +603,7 @@ static status begin_waves(mpm *m, int n)
 static status one_substep(mpm *m, int n, tally *sum)
 {
     double clock = omp_get_wtime();
-    m->begins = coarsest_at(m, n), m->ends = coarsest_at(m, n + 1);
+    m->begins = coarsest_at(m, n), m->ends = coarsest_at(m, n + 1), m->substeps++;
     TRY(reserve_scratch(m));
     TRY(mpm_cavities_reserve(m));
     TRY(begin_waves(m, n));

@@ -16,6 +16,7 @@
 void ISA(p2g)(mpm *m, brick *b);
 void ISA(gather)(mpm *m, int site);
 void ISA(nodes)(mpm *m, int site, int thread);
+void ISA(touch)(mpm *m, int site, int thread);
 size_t ISA(node_bytes)(int groups);
 void ISA(g2p)(mpm *m, brick *b, int thread);
 

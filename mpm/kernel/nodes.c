@@ -11,6 +11,7 @@
 #include "mpm/memory/cavities.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef double node_lines[BRICK_CELLS][LINE] __attribute__((aligned(64)));
@@ -349,23 +350,6 @@ static bool geometry(const mpm *m, const node_state *a, const node_state *b, boo
     return true;
 }
 
-/* A body that reaches a node with a sliver alone shows it a face made of few points, so the normal may be off by some
- * angle, and sliding along the face then reads as approach.  Of the approach before the forces it leaves out what that
- * angle could make; the nodes beside it, which hold more of the body, stop a true one. */
-static void allow_for_tilt(const node_state *a, const node_state *b, contact_touch *t)
-{
-    static const double RAGGED = 0.01, TILT_MOST = 0.5, SLIVER = 0.3; /* cells, 1, cells */
-    const double reach = sqrt(2 * fmin(a->extra[3], b->extra[3]) / (a->extra[3] + b->extra[3])); /* past the node */
-    if (reach >= SLIVER) return;
-    double start[3], slip2 = 0;
-    for (int k = 0; k < 3; k++) start[k] = b->v_start[k] - a->v_start[k];
-    const double vn = dot(start, t->n);
-    for (int k = 0; k < 3; k++) slip2 += (start[k] - vn * t->n[k]) * (start[k] - vn * t->n[k]);
-    const double read = fmin(RAGGED / reach - RAGGED / SLIVER, TILT_MOST) * sqrt(slip2);
-    const double change = fmax(-read, fmin(read, vn));
-    for (int k = 0; k < 3; k++) t->apart[k] -= change * t->n[k];
-}
-
 static double kinetic(const node_state *n)
 {
     return 0.5 * n->m * dot(n->v, n->v);
@@ -405,18 +389,95 @@ static bool impulse(const touch_rule *rule, const contact_touch *t, double J[3])
     return false;
 }
 
+/* What a pair is at a node before any contact acts there; false: no face. */
+static bool record_of(const mpm *m, const node_side *a, const node_side *b, const node_place *at, touch_node *r)
+{
+    const node_state *p = &a->state, *q = &b->state;
+    const touch_rule *rule = touch_rule_of(m, a->brick->group, b->brick->group);
+    const bool held[2] = { is_held(m, a), is_held(m, b) };
+    contact_touch c = { .dt = at->dt };
+    if (held[0] && held[1]) return false;
+    if (!geometry(m, p, q, rule->normal_of_higher, at, &c)) return false;
+    *r = (touch_node){ .group = { a->brick->group, b->brick->group },
+                       .area = c.area,
+                       .gap = c.gap,
+                       .width = c.width,
+                       .shear = c.shear,
+                       .reduced = held[0] ? q->m : held[1] ? p->m : p->m * q->m / (p->m + q->m) };
+    for (int k = 0; k < 3; k++) r->n[k] = c.n[k], r->apart[k] = q->v[k] - p->v[k];
+    return true;
+}
+
+/* A pair's record at a node of a site, NULL: none in this step. */
+static const touch_node *record_at(const mpm *m, const touch_site *t, int cell, const int group[2])
+{
+    if (t->step != m->substeps) return NULL;
+    for (int i = t->first[cell]; i < t->first[cell + 1]; i++)
+        if (t->node[i].group[0] == group[0] && t->node[i].group[1] == group[1]) return &t->node[i];
+    return NULL;
+}
+
+/* The same one node on along axis k. */
+static const touch_node *record_beside(const mpm *m, const brick *b, int cell, int k, int way, const int group[2])
+{
+    static const int stride[3] = { 1, BRICK, BRICK * BRICK }, step[3] = { 1, 3, 9 };
+    const int place = cell / stride[k] % BRICK + way;
+    if (place >= 0 && place < BRICK)
+        return record_at(m, &m->touch[grids_place(&m->grids, b->level, b->at)], cell + way * stride[k], group);
+    const int other = b->neighbour[SELF + way * step[k]];
+    if (other < 0) return NULL;
+    const int site = grids_place(&m->grids, b->level, m->bricks[other].at);
+    return record_at(m, &m->touch[site], cell - way * (BRICK - 1) * stride[k], group);
+}
+
+/* Adds a node to the face's mean, by the part of the face that belongs to it. */
+typedef struct {
+    double area, compliance, gap, n[3], apart[3]; /* sums of A, A^2/m, A g, A n, A (v_b - v_a) */
+} face_sums;
+
+static void add_record(face_sums *f, const touch_node *r, const double apart[3])
+{
+    f->area += r->area;
+    f->compliance += r->area * r->area / r->reduced;
+    f->gap += r->area * r->gap;
+    for (int k = 0; k < 3; k++) f->n[k] += r->area * r->n[k], f->apart[k] += r->area * apart[k];
+}
+
+/* The face that a node has a part of passes between nodes: its motion is the mean of theirs by their parts A of it, and
+ * one pressure acts on it, whose part at the node is as A.  So each body's forces at its nodes are balanced one by one,
+ * at a node of little mass too, and what a body does behind its own face is its own.  Nodes before and after along the
+ * axis that is nearest to the normal count.  `apart` at this node as it is now; a node may be in several pairs. */
+static bool face_at(const mpm *m, const brick *b, int cell, const touch_node *r, const double apart[3],
+                    contact_touch *t)
+{
+    face_sums f = { .area = 0 };
+    int along = 0;
+    for (int k = 1; k < 3; k++)
+        if (fabs(r->n[k]) > fabs(r->n[along])) along = k;
+    if (!(r->area > 0)) return false;
+    add_record(&f, r, apart);
+    for (int way = -1; way <= 1; way += 2) {
+        const touch_node *q = record_beside(m, b, cell, along, way, r->group);
+        if (q && q->area > 0 && dot(q->n, r->n) > 0.5) add_record(&f, q, q->apart);
+    }
+    const double length = sqrt(dot(f.n, f.n));
+    for (int k = 0; k < 3; k++) t->n[k] = f.n[k] / length, t->apart[k] = f.apart[k] / f.area;
+    t->gap = f.gap / f.area;
+    t->width = r->width, t->shear = r->shear, t->area = r->area;
+    t->reduced = r->area * f.area / f.compliance;
+    return true;
+}
+
 /* Sets the pair's velocities and its J; false where the two do not touch. */
-static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally *sum)
+static bool contact_pair(const mpm *m, touching *t, int cell, const touch_node *r, double dt, tally *sum)
 {
     node_state *a = &t->a->state, *b = &t->b->state;
     const touch_rule *rule = touch_rule_of(m, t->a->brick->group, t->b->brick->group);
     const bool held[2] = { is_held(m, t->a), is_held(m, t->b) };
-    if (held[0] && held[1]) return false;
-    contact_touch c = { .reduced = held[0] ? b->m : held[1] ? a->m : a->m * b->m / (a->m + b->m), .dt = at->dt };
-    if (!geometry(m, a, b, rule->normal_of_higher, at, &c)) return false;
-    for (int k = 0; k < 3; k++) c.apart[k] = b->v[k] - a->v[k];
-    allow_for_tilt(a, b, &c);
-    if (!impulse(rule, &c, t->J)) return false;
+    contact_touch c = { .dt = dt };
+    double apart[3];
+    for (int k = 0; k < 3; k++) apart[k] = b->v[k] - a->v[k];
+    if (!face_at(m, t->a->brick, cell, r, apart, &c) || !impulse(rule, &c, t->J)) return false;
     for (int k = 0; k < 3; k++) {
         if (held[0])
             sum->impulse_boundary[k] += t->J[k]; /* what holds it gives it back */
@@ -521,30 +582,100 @@ static double volume_made(const node_state *n, double dt)
     return sum;
 }
 
-static void one_node(mpm *m, const scratch *at, int count, int cell, const int index[3], const double h[3], double dt,
-                     tally *sum)
+/* The last of a group at a node: walls that act again, what is booked, the node itself. */
+static void end_side(mpm *m, node_side *side, int cell, bool again, int gas, double *swept, double dt, tally *sum)
+{
+    if (again) apply_walls(m, side, cell, BOUNDARY_AGAIN, dt, sum);
+    if (gas) swept[gas - 1] += volume_made(&side->state, dt);
+    finish_node(&side->state, brick_nodes(m, side->brick)[cell], sum);
+}
+
+/* Room for more records and trials of a site. */
+static bool reserve_touch(touch_site *t, int records, int trials)
+{
+    if (t->count + records > t->capacity) {
+        const int capacity = 2 * t->capacity + records + 16;
+        touch_node *node = realloc(t->node, (size_t)capacity * sizeof *node);
+        if (!node) return false;
+        t->node = node, t->capacity = capacity;
+    }
+    if (t->trials + trials > t->trial_capacity) {
+        const int capacity = 2 * t->trial_capacity + trials + 16;
+        touch_trial *trial = realloc(t->trial, (size_t)capacity * sizeof *trial);
+        if (!trial) return false;
+        t->trial = trial, t->trial_capacity = capacity;
+    }
+    return true;
+}
+
+static touch_trial trial_of(const mpm *m, const node_side *s)
+{
+    touch_trial t = { .brick = (int)(s->brick - m->bricks), .m = s->state.m, .heat = s->state.heat };
+    memcpy(t.v, s->state.v, sizeof t.v);
+    memcpy(t.v_start, s->state.v_start, sizeof t.v_start);
+    memcpy(t.absorbed, s->state.absorbed, sizeof t.absorbed);
+    memcpy(t.extra, s->state.extra, sizeof t.extra);
+    return t;
+}
+
+static void side_of(mpm *m, const touch_trial *t, const int index[3], node_side *s)
+{
+    s->brick = &m->bricks[t->brick];
+    s->state = (node_state){ .m = t->m, .heat = t->heat, .extra = t->extra };
+    memcpy(s->state.v, t->v, sizeof t->v);
+    memcpy(s->state.v_start, t->v_start, sizeof t->v_start);
+    memcpy(s->state.absorbed, t->absorbed, sizeof t->absorbed);
+    s->n_walls = walls_at(m, axes_of(m, s->brick), index, s->brick->group, s->walls);
+}
+
+/* A node that groups share waits for the nodes around it: what is known of it before any contact. */
+static bool note_shared(mpm *m, touch_site *t, const node_side *side, int here, const double h[3], double dt)
+{
+    if (!reserve_touch(t, here * (here - 1) / 2, here)) return false;
+    for (int s = 0; s < here; s++) t->trial[t->trials++] = trial_of(m, &side[s]);
+    for (int a = 0; a < here; a++)
+        for (int b = a + 1; b < here; b++) {
+            const node_place place = { h, side[a].walls, side[a].n_walls, dt };
+            t->count += record_of(m, &side[a], &side[b], &place, &t->node[t->count]);
+        }
+    return true;
+}
+
+static void one_node(mpm *m, const scratch *at, touch_site *t, int count, int cell, const int index[3],
+                     const double h[3], double dt, tally *sum)
 {
     node_side *side = at->side;
     const double gas = at->gas ? m->cavities->state[at->gas - 1].pressure : 0;
-    int here = 0, pairs = 0;
+    int here = 0;
     for (int s = 0; s < count; s++)
         if (at->group[s].line[cell][0] > 0)
             begin_side(m, &at->group[s], cell, index, dt, gas, &side[here++], sum);
         else
             memset(brick_nodes(m, at->group[s].brick)[cell], 0, NODE * sizeof(double));
+    if (here > 1) {
+        if (!note_shared(m, t, side, here, h, dt)) sum->stranded = true;
+        return;
+    }
+    for (int s = 0; s < here; s++) end_side(m, &side[s], cell, count > 1, at->gas, at->swept, dt, sum);
+}
+
+/* The contacts at a node that groups share, whose trials begin with `first`. */
+static void touch_node_at(mpm *m, const scratch *at, const touch_site *t, int first, int here, int cell,
+                          const int index[3], double dt, tally *sum)
+{
+    node_side *side = at->side;
+    int pairs = 0;
+    for (int s = 0; s < here; s++) side_of(m, &t->trial[first + s], index, &side[s]);
     for (int a = 0; a < here; a++)
         for (int b = a + 1; b < here; b++) {
-            const node_place place = { h, side[a].walls, side[a].n_walls, dt };
-            touching *t = &at->pair[pairs];
-            *t = (touching){ &side[a], &side[b], { 0 } };
-            if (contact_pair(m, t, &place, sum)) pairs++;
+            const int group[2] = { side[a].brick->group, side[b].brick->group };
+            const touch_node *r = record_at(m, t, cell, group);
+            touching *p = &at->pair[pairs];
+            *p = (touching){ &side[a], &side[b], { 0 } };
+            if (r && contact_pair(m, p, cell, r, dt, sum)) pairs++;
         }
     for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum);
-    for (int s = 0; s < here; s++) {
-        if (count > 1) apply_walls(m, &side[s], cell, BOUNDARY_AGAIN, dt, sum);
-        if (at->gas) at->swept[at->gas - 1] += volume_made(&side[s].state, dt);
-        finish_node(&side[s].state, brick_nodes(m, side[s].brick)[cell], sum);
-    }
+    for (int s = 0; s < here; s++) end_side(m, &side[s], cell, true, at->gas, at->swept, dt, sum);
 }
 
 /* Away from every wall: one_node then only adds the forces, unless groups meet. */
@@ -622,7 +753,10 @@ void ISA(nodes)(mpm *m, int site, int thread)
     const int count = groups_at(m, site, &at, sum);
     if (count == 0) return;
     const axis *axes = axes_of(m, b);
+    touch_site *touch = count > 1 ? &m->touch[site] : NULL;
+    if (touch) touch->count = touch->trials = 0, touch->step = m->substeps;
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
+        if (touch) touch->first[cell] = touch->count, touch->first_trial[cell] = touch->trials;
         const int index[3] = { BRICK * b->at[0] + cell % BRICK, BRICK * b->at[1] + cell / BRICK % BRICK,
                                BRICK * b->at[2] + cell / (BRICK * BRICK) };
         if (!(due >> cell & 1)) continue;
@@ -635,6 +769,26 @@ void ISA(nodes)(mpm *m, int site, int thread)
         }
         double h[3];
         for (int k = 0; k < 3; k++) h[k] = axes[k].edge[index[k] + 1] - axes[k].edge[index[k]];
-        one_node(m, &at, count, cell, index, h, dt, sum);
+        one_node(m, &at, touch, count, cell, index, h, dt, sum);
+    }
+    if (touch) touch->first[BRICK_CELLS] = touch->count, touch->first_trial[BRICK_CELLS] = touch->trials;
+}
+
+void ISA(touch)(mpm *m, int site, int thread)
+{
+    const touch_site *t = &m->touch[site];
+    if (t->step != m->substeps || t->trials == 0) return;
+    scratch at = scratch_of(m, thread);
+    tally *sum = &m->site_sum[site];
+    const brick *b = first_at(m, site);
+    struct mpm_cavities *cavities = m->cavities;
+    if (cavities) at.swept = cavities->swept + site * cavities->n;
+    for (int cell = 0; cell < BRICK_CELLS; cell++) {
+        const int first = t->first_trial[cell], here = t->first_trial[cell + 1] - first;
+        const int index[3] = { BRICK * b->at[0] + cell % BRICK, BRICK * b->at[1] + cell / BRICK % BRICK,
+                               BRICK * b->at[2] + cell / (BRICK * BRICK) };
+        if (here == 0) continue;
+        at.gas = cavities && is_in_map(cavities, index) ? cavity_at(cavities, index) & CAVITY_OF : 0;
+        touch_node_at(m, &at, t, first, here, cell, index, mpm_substep_dt(m, b, cell), sum);
     }
 }

@@ -64,6 +64,8 @@ static status grow_blocks(mpm *m, int capacity)
 
 static void free_places(mpm *m)
 {
+    for (int i = 0; m->touch && i < m->places; i++) free(m->touch[i].node), free(m->touch[i].trial);
+    free(m->touch);
     free(m->directory);
     free(m->site_list);
     free(m->interface_list);
@@ -83,8 +85,11 @@ static status grow_places(mpm *m)
     m->interface_list = malloc((size_t)room * sizeof(int));
     m->site_sum = malloc((size_t)room * sizeof(tally));
     m->site_count = m->interface_count = 0;
-    CHECK(directory && m->site_list && m->interface_list && m->site_sum, STATUS_MEMORY,
+    touch_site *touch = realloc(m->touch, (size_t)room * sizeof *touch);
+    if (touch) m->touch = touch;
+    CHECK(directory && m->site_list && m->interface_list && m->site_sum && touch, STATUS_MEMORY,
           "no memory for %d places of bricks", room);
+    memset(touch + m->places, 0, (size_t)(room - m->places) * sizeof *touch);
     for (size_t i = directory_slot(m, m->places, 0); i < directory_slot(m, room, 0); i++) m->directory[i] = -1;
     m->places = room;
     return status_ok();

@@ -189,6 +189,29 @@ typedef struct {
     bool normal_of_higher; /* of the two groups; else the surface of the lower gives the normal */
 } touch_rule;
 
+/* Two groups at a node that both have a part of, before any contact acts there (kernel/nodes.c). */
+typedef struct {
+    int group[2];                              /* a < b */
+    double n[3];                               /* unit normal from a to b */
+    double apart[3];                           /* v_b - v_a, forces of the step included [m/s] */
+    double area, gap, width, shear, reduced; /* as contact_touch has them, of this node alone */
+} touch_node;
+
+/* A group at such a node: what its contacts and its end need. */
+typedef struct {
+    int brick;
+    double m, heat, v[3], v_start[3], absorbed[3], extra[LINE];
+} touch_trial;
+
+/* The nodes of a site that groups share, of the finest level's step number `step`, in the order of cells. */
+typedef struct {
+    uint64_t step;
+    int count, capacity, trials, trial_capacity;
+    touch_node *node;
+    touch_trial *trial;
+    int first[BRICK_CELLS + 1], first_trial[BRICK_CELLS + 1];
+} touch_site;
+
 /* Contact force on a group from all others. */
 typedef struct {
     double last[3];   /* mean of the last step [N] */
@@ -212,6 +235,8 @@ struct mpm {
     struct mpm_cavities *cavities; /* memory/cavities.h; NULL: the scene has none */
     int *directory;                /* [places][groups] brick or -1 */
     tally *site_sum;               /* [places] */
+    touch_site *touch;             /* [places] */
+    uint64_t substeps;             /* steps of the finest level so far, the one under way included */
     int places;                    /* that the four arrays of places have room for */
 
     brick *bricks;
@@ -259,6 +284,7 @@ struct kernels {
     void (*p2g)(mpm *m, brick *b);
     void (*gather)(mpm *m, int site); /* an interface's sums into brick.line */
     void (*nodes)(mpm *m, int site, int thread);
+    void (*touch)(mpm *m, int site, int thread); /* contacts at the nodes that groups share, after those of all sites */
     size_t (*node_bytes)(int groups); /* of scratch memory, for a thread and that many groups at a site */
     void (*g2p)(mpm *m, brick *b, int thread);
 };
