@@ -160,6 +160,40 @@ static status check_loads(mpm *m)
     return status_ok();
 }
 
+/* Least way of a group's points to an end of the window, in cells there. */
+static double way_to_end(const mpm *m, int group, int face)
+{
+    const int k = face / 2;
+    double least = HUGE_VAL;
+    for (int i = 0; i < m->bricks_used; i++) {
+        const brick *b = &m->bricks[i];
+        const axis *a = &axes_of(m, b)[k];
+        const double end = face % 2 ? m->scene.axis[k].hi : m->scene.axis[k].lo;
+        const double size = face % 2 ? axis_left(a, a->last) : axis_right(a, 1);
+        for (int c = 0; c < BRICK_CELLS && b->group == group; c++)
+            for (int q = b->head[c]; q >= 0; q = m->links[q].next)
+                for (unsigned left = m->links[q].mask; left; left &= left - 1) {
+                    const int l = __builtin_ctz(left);
+                    least = fmin(least, (fabs(m->blocks[q].x[k][l] - end) - m->blocks[q].half[k][l]) / size);
+                }
+    }
+    return least;
+}
+
+/* An end that holds what it acts on holds a group for good that begins at it, as its own other half or its own support.
+ * One that comes to it touches it. */
+static void find_arrivals(mpm *m)
+{
+    static const double BESIDE = 0.05; /* cells */
+    for (int g = 0; g < m->groups; g++)
+        for (int face = 0; face < MPM_FACES; face++) {
+            const mpm_boundary_kind kind = m->scene.axis[face / 2].boundary[face % 2];
+            const bool holds = kind != MPM_BOUNDARY_FREE && kind != MPM_BOUNDARY_ABSORBING;
+            m->group[g].arrives[face] = holds && !m->group[g].passes[face] && way_to_end(m, g, face) > BESIDE;
+            m->arrivals = m->arrivals || m->group[g].arrives[face];
+        }
+}
+
 static status fill(mpm *m)
 {
     TRY(make_laws(m));
@@ -175,6 +209,7 @@ static status fill(mpm *m)
         again = again && i < m->grids.levels;
     }
     TRY(check_loads(m));
+    find_arrivals(m);
     TRY(mpm_cavities_make(m));
     return mpm_store_settle(m);
 }
@@ -499,7 +534,8 @@ static void take_peaks(mpm *m)
 
 static status check_share(const mpm *m, const tally *t)
 {
-    CHECK(!t->stranded, STATUS_MEMORY, "t = %g s: no memory for points that change their cells, or for contacts", m->time);
+    CHECK(!t->stranded, STATUS_MEMORY, "t = %g s: no memory for points that change their cells, or for contacts",
+          m->time);
     if (t->bad_block < 0) return status_ok();
     const block *q = &m->blocks[t->bad_block];
     const int l = t->bad_lane;

@@ -121,9 +121,9 @@ typedef struct {
     /* The planes of the grid, of all levels, moved along each axis by a share of the finest cell; the window's ends and
      * the bodies stay where they are [1] */
     double grid_shift[3];
-    int particles_per_axis; /* material points a cell and axis, 2 or 3 */
-    double courant;         /* of c + |v|, on each level by its own steps and cells */
-    double end_time;        /* of the run, for whoever calls mpm_advance; NAN: not said [s] */
+    int particles_per_axis;                       /* material points a cell and axis, 2 or 3 */
+    double courant;                               /* of c + |v|, on each level by its own steps and cells */
+    double end_time;                              /* of the run, for whoever calls mpm_advance; NAN: not said [s] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
     double surroundings; /* absolute pressure around the bodies; NAN: that at which each gas is at rest [Pa] */
     mpm_transfer_kind transfer;

@@ -35,13 +35,13 @@ static void sample_ratios(const double n[3], double reach, double ratio[DEPTHS +
     for (int i = 0; i <= DEPTHS; i++) {
         double F, w;
         mpm_face_weight(n, reach * (2.0 * i / DEPTHS - 1), &F, &w);
-        const double r = w > 1e-9 ? F / w : i < DEPTHS / 2 ? 0 : HUGE_VAL; /* at the ends rounding is all that is left */
-        ratio[i] = last = fmax(r, last);
+        const double end = i < DEPTHS / 2 ? 0 : HUGE_VAL; /* there rounding is all that is left of F and w */
+        ratio[i] = last = fmax(w > 1e-9 ? F / w : end, last);
     }
 }
 
-/* A direction's row: what it has beyond the hat's depth.  By straight lines between the samples; beyond the weight's end there is no face, and the end is
- * the depth. */
+/* A direction's row: what it has beyond the hat's depth.  By straight lines between the samples; beyond the weight's
+ * end there is no face, and the end is the depth. */
 static void make_row(const double n[3], double row[FACE_RATIOS + 1])
 {
     const double reach = n[0] + n[1] + n[2];

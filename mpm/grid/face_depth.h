@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How deep a node lies below a body's face, from two sums over the body's points.
  *
- * The volume and the area of the face that belong to a node are integrals of its weight w, which for GIMP is a hat along
+ * The volume and the area of the face that belong to a node are integrals of its weight, which for GIMP is a hat along
  * each axis, over the body and over its face.  Of a body with a plane face whose outward normal is n
  *
- *   V = A' h F(d),   A = A' w(d),   F(d) = integral of w from -infinity to d,
+ *   V = B h F(d),   A = B w(d),   F(d) = integral of w from -infinity to d,
  *
- * with d the depth of the node below the face, w the weight projected on n, both in units of the cell's width h along n,
- * and A' the part of the cell's section that the body takes, which cancels in
+ * with d the depth of the node below the face and w the weight projected on n, both in units of the cell's width h along
+ * n.  B is the part of the cell's section that the body takes; it cancels in
  *
  *   r = V/(A h) = F(d)/w(d),                                                                       (N-13)
  *
- * so an edge of the body, a half-filled cell or the end of a film read as the face itself.  r grows with d and is turned
- * round by a table over the direction of n, made from the closed form of the projected weight: three hats as wide as
- * the normal's components, folded with one another. */
+ * so that the end of a face reads as the face itself.  r grows with d.  A table over the direction of n turns it round;
+ * it is made from the closed form of the projected weight: three hats, as wide as the normal's components, folded. */
 #ifndef BREECH_MPM_FACE_DEPTH_H
 #define BREECH_MPM_FACE_DEPTH_H
 
@@ -65,7 +64,8 @@ static inline double face_depth(const face_depths *t, const double n[3], double 
     const double a = fmax(n[0], n[1]), b = fmin(n[0], n[1]);
     const double n1 = fmax(a, n[2]), n3 = fmin(b, n[2]), n2 = fmax(fmin(a, n[2]), b);
     int i, j, k;
-    const double u = face_place(n2 / n1, FACE_DIRECTIONS - 1, &i), v = face_place(n2 > 0 ? n3 / n2 : 0, FACE_DIRECTIONS - 1, &j);
+    const double u = face_place(n2 / n1, FACE_DIRECTIONS - 1, &i),
+                 v = face_place(n2 > 0 ? n3 / n2 : 0, FACE_DIRECTIONS - 1, &j);
     const double q = face_place(face_ratio_place(r), FACE_RATIOS, &k);
     double s = face_depth_aligned(r);
     for (int c = 0; c < 4; c++) {

@@ -28,8 +28,8 @@ static const kernels table[] = {
 #ifdef BREECH_ISA_V3
     { "x86-64-v3", mpm_p2g_v3, mpm_gather_v3, mpm_nodes_v3, mpm_touch_v3, mpm_node_bytes_v3, mpm_g2p_v3 },
 #endif
-    { "portable", mpm_p2g_portable, mpm_gather_portable, mpm_nodes_portable, mpm_touch_portable, mpm_node_bytes_portable,
-      mpm_g2p_portable },
+    { "portable", mpm_p2g_portable, mpm_gather_portable, mpm_nodes_portable, mpm_touch_portable,
+      mpm_node_bytes_portable, mpm_g2p_portable },
 };
 
 static bool runs_here(const char *name)

@@ -5,8 +5,8 @@
  *   node as heat and goes to the points in G2P:  E_i = v_i^2/2 + Q_i/m_i.  So does the work of the forces on the
  *   velocities before them, dt/2 f . v, less what the points had booked of it (p2g.c); that on those after them is
  *   the points'. */
-#include "mpm/kernel/kernels.h"
 #include "mpm/grid/face_depth.h"
+#include "mpm/kernel/kernels.h"
 #include "mpm/law/contact.h"
 #include "mpm/memory/cavities.h"
 
@@ -143,6 +143,7 @@ typedef struct {
     int axis, end; /* end: 0 the lower, 1 the upper */
     double size;   /* of the element beside the boundary [m] */
     const double *velocity;
+    bool arrives; /* group_info.arrives: it acts as a contact */
 } wall;
 
 static int walls_at(const mpm *m, const axis axes[3], const int index[3], int group, wall w[3])
@@ -155,8 +156,12 @@ static int walls_at(const mpm *m, const axis axes[3], const int index[3], int gr
         const mpm_axis *s = &m->scene.axis[k];
         if (m->group[group].passes[2 * k + hi]) continue;
         if (s->boundary[hi] == MPM_BOUNDARY_FREE) continue;
-        w[n++] =
-            (wall){ s->boundary[hi], k, hi, hi ? axis_left(a, a->last) : axis_right(a, 1), s->boundary_velocity[hi] };
+        w[n++] = (wall){ .kind = s->boundary[hi],
+                         .axis = k,
+                         .end = hi,
+                         .size = hi ? axis_left(a, a->last) : axis_right(a, 1),
+                         .velocity = s->boundary_velocity[hi],
+                         .arrives = m->group[group].arrives[2 * k + hi] };
     }
     return n;
 }
@@ -271,6 +276,7 @@ static void apply_walls(const mpm *m, node_side *side, int cell, wall_turn turn,
     for (int k = 0; k < 3 && is_held(m, side) && turn == BOUNDARY_ONCE; k++) wall_hold(n, k, 0);
     for (int i = 0; i < side->n_walls && !is_held(m, side); i++) {
         const wall *w = &side->walls[i];
+        if (w->arrives) continue; /* touch_wall */
 #define BOUNDARY(PLACE, name, after, text) \
     if (w->kind == MPM_BOUNDARY_##PLACE && (after) >= turn) boundary_##name(n, w, &at);
 #include "mpm/law/boundary.def"
@@ -403,7 +409,9 @@ static bool record_of(const mpm *m, const node_side *a, const node_side *b, cons
                        .gap = c.gap,
                        .width = c.width,
                        .shear = c.shear,
-                       .reduced = held[0] ? q->m : held[1] ? p->m : p->m * q->m / (p->m + q->m) };
+                       .reduced = held[0]   ? q->m
+                                  : held[1] ? p->m
+                                            : p->m * q->m / (p->m + q->m) };
     for (int k = 0; k < 3; k++) r->n[k] = c.n[k], r->apart[k] = q->v[k] - p->v[k];
     return true;
 }
@@ -582,10 +590,36 @@ static double volume_made(const node_state *n, double dt)
     return sum;
 }
 
+/* A wall that the group came to, after its forces: once the gap to it is closed the group does not go on, and may leave.
+ * A mirror lets it slide, others take it with them. */
+static void touch_wall(node_side *side, const wall *w, double dt, tally *sum)
+{
+    node_state *n = &side->state;
+    const double area = (w->end ? 1 : -1) * n->extra[w->axis] * w->size, V = n->extra[3],
+                 rough = w->kind != MPM_BOUNDARY_SYMMETRY;
+    contact_touch t = { .width = w->size, .dt = dt, .reduced = n->m };
+    if (!(area > 0)) return;
+    t.n[w->axis] = w->end ? 1 : -1;
+    t.gap = -w->size * face_depth_aligned(V / area);
+    for (int k = 0; k < 3; k++) t.apart[k] = (rough ? w->velocity[k] : 0) - n->v[k];
+    const double closing = contact_closing(&t), left = closing - dot(t.apart, t.n);
+    if (!(closing < 0)) return;
+    for (int k = 0; k < 3; k++) {
+        const double change = k == w->axis || rough ? t.apart[k] + left * t.n[k] : 0,
+                     moving = rough ? w->velocity[k] : 0;
+        n->v[k] += change;
+        n->heat -= n->m * change * (0.5 * (n->v_start[k] + n->v[k]) - moving);
+        sum->impulse_boundary[k] += n->m * change;
+        sum->work_boundary += n->m * change * moving;
+    }
+}
+
 /* The last of a group at a node: walls that act again, what is booked, the node itself. */
 static void end_side(mpm *m, node_side *side, int cell, bool again, int gas, double *swept, double dt, tally *sum)
 {
     if (again) apply_walls(m, side, cell, BOUNDARY_AGAIN, dt, sum);
+    for (int i = 0; i < side->n_walls && !is_held(m, side); i++)
+        if (side->walls[i].arrives) touch_wall(side, &side->walls[i], dt, sum);
     if (gas) swept[gas - 1] += volume_made(&side->state, dt);
     finish_node(&side->state, brick_nodes(m, side->brick)[cell], sum);
 }
@@ -721,7 +755,9 @@ static int groups_at(mpm *m, int site, const scratch *to, tally *sum)
         group_nodes *n = &to->group[count];
         *n = b->at_interface ? interface_lines(b) : (group_nodes){ b, to->own[count][0], to->own[count][1] };
         if (present > 1) memset(b->contact_impulse, 0, sizeof b->contact_impulse);
-        if (b->at_interface ? has_mass(b->line) : gather_group(m, b, present > 1 || m->cavities, n))
+        if (b->at_interface
+                ? has_mass(b->line)
+                : gather_group(m, b, present > 1 || m->cavities || (m->arrivals && mpm_arrival_cells(m, b)), n))
             count++;
         else
             memset(brick_nodes(m, b), 0, sizeof *m->nodes);

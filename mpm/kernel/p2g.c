@@ -39,8 +39,8 @@ typedef struct {
     double yz[2][2][LANES]; /* weights' product, [z][y] */
 } __attribute__((aligned(64))) factors;
 
-/* What a block gives to contact lines: V grad w, [axis][first or last node][point]; V; m flow stress; m effusivity, in a
- * group whose bodies differ in that. */
+/* What a block gives to contact lines: V grad w, [axis][first or last node][point]; V; m flow stress; m effusivity, in
+ * a group whose bodies differ in that. */
 typedef struct {
     double gradient[3][2][LANES], volume[LANES], flow[LANES], heat[LANES];
 } __attribute__((aligned(64))) contact_factors;
@@ -67,10 +67,9 @@ LANE_INLINE void store_lines(double (*to)[LINE], const vd row[LINE], int lane)
 /* Lanes of a contact line, all bits set: V grad S along each axis, V, m flow stress, m effusivity. */
 static const struct {
     int64_t gradient[3][LINE], volume[LINE], flow[LINE], heat[LINE];
-} contact_kinds __attribute__((aligned(64))) = { { { -1 }, { 0, -1 }, { 0, 0, -1 } },
-                                                 { 0, 0, 0, -1 },
-                                                 { 0, 0, 0, 0, 0, 0, -1 },
-                                                 { 0, 0, 0, 0, 0, 0, 0, -1 } };
+} contact_kinds __attribute__((aligned(64))) = {
+    { { -1 }, { 0, -1 }, { 0, 0, -1 } }, { 0, 0, 0, -1 }, { 0, 0, 0, 0, 0, 0, -1 }, { 0, 0, 0, 0, 0, 0, 0, -1 }
+};
 
 LANE_INLINE vm kind_at(const int64_t *kind, int part)
 {
@@ -345,7 +344,8 @@ void ISA(p2g)(mpm *m, brick *b)
     const uint64_t meets = (b->across    ? ~0ull
                             : b->contact ? mpm_contact_cells(m, b)
                                          : 0) |
-                           (m->cavities ? cavity_cells(m->cavities, b) : 0);
+                           (m->cavities ? cavity_cells(m->cavities, b) : 0) |
+                           (m->arrivals ? mpm_arrival_cells(m, b) : 0);
     uint64_t open[3][2];
     find_open_sides(m, b, open);
     const double steady_dt = steady(level_dt(m, b->level));

@@ -201,7 +201,7 @@ static bool link_brick(mpm *m, brick *b)
     }
     b->across = b->at_interface && mpm_interface_in_contact(m, b);
     b->contact = b->across || meets_other(m, b);
-    const bool surface = b->contact || m->cavities; /* volume gradients are summed */
+    const bool surface = b->contact || m->cavities || mpm_arrival_cells(m, b); /* volume gradients are summed */
     if (surface && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
     if (b->at_interface && !b->line) b->line = cleared(2 * BRICK_CELLS * sizeof *b->line);
     if (interface_shared(&b->interface) && !b->held) b->held = cleared(sizeof *b->held);

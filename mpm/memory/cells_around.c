@@ -5,6 +5,8 @@
  * cells lie within two of each other along every axis, and nodes within one of a group's cells have mass. */
 #include "mpm/memory/store.h"
 
+#include <stdlib.h>
+
 static const uint64_t first_layer[3] = { 0x1111111111111111, 0x000f000f000f000f, 0xffff }; /* across each axis */
 
 uint64_t mpm_occupied_cells(const brick *b)
@@ -75,6 +77,18 @@ void mpm_cells_open(const mpm *m, const brick *b, int k, uint64_t open[2])
 uint64_t mpm_cells_of_layer(int k, int layer)
 {
     return first_layer[k] << layer * (1 << 2 * k);
+}
+
+uint64_t mpm_arrival_cells(const mpm *m, const brick *b)
+{
+    uint64_t cells = 0;
+    for (int face = 0; face < MPM_FACES; face++) {
+        if (!m->group[b->group].arrives[face]) continue;
+        const int k = face / 2, end = face % 2 ? axes_of(m, b)[k].last : 1;
+        for (int i = 0; i < BRICK; i++)
+            if (abs(BRICK * b->at[k] + i - end) <= 1) cells |= mpm_cells_of_layer(k, i);
+    }
+    return cells;
 }
 
 uint64_t mpm_contact_cells(const mpm *m, const brick *b)

@@ -176,9 +176,10 @@ typedef struct body_tops body_tops;
 typedef struct kernels kernels;
 
 typedef struct {
-    int first;              /* body */
-    bool passes[MPM_FACES]; /* mpm_body.passes */
-    bool held;              /* mpm_body.held */
+    int first;               /* body */
+    bool passes[MPM_FACES];  /* mpm_body.passes */
+    bool held;               /* mpm_body.held */
+    bool arrives[MPM_FACES]; /* an end that holds what it acts on, and that the group did not begin at: it touches it */
     bool mixed; /* its bodies differ in what a node asks of them: effusivity, wave speeds, pressure at the start */
 } group_info;
 
@@ -191,9 +192,9 @@ typedef struct {
 
 /* Two groups at a node that both have a part of, before any contact acts there (kernel/nodes.c). */
 typedef struct {
-    int group[2];                              /* a < b */
-    double n[3];                               /* unit normal from a to b */
-    double apart[3];                           /* v_b - v_a, forces of the step included [m/s] */
+    int group[2];                            /* a < b */
+    double n[3];                             /* unit normal from a to b */
+    double apart[3];                         /* v_b - v_a, forces of the step included [m/s] */
     double area, gap, width, shear, reduced; /* as contact_touch has them, of this node alone */
 } touch_node;
 
@@ -229,6 +230,7 @@ struct mpm {
     grids grids;
     int groups;
     group_info *group;             /* [groups] */
+    bool arrivals;                 /* has any of them an end that it arrives at? */
     struct face_depths *depths;    /* grid/face_depth.h; NULL: one group alone */
     touch_rule *rule;              /* [1 + scene.pairs] the first for two groups that no pair names */
     int *rule_of;                  /* [groups x groups] */
@@ -285,7 +287,7 @@ struct kernels {
     void (*gather)(mpm *m, int site); /* an interface's sums into brick.line */
     void (*nodes)(mpm *m, int site, int thread);
     void (*touch)(mpm *m, int site, int thread); /* contacts at the nodes that groups share, after those of all sites */
-    size_t (*node_bytes)(int groups); /* of scratch memory, for a thread and that many groups at a site */
+    size_t (*node_bytes)(int groups);            /* of scratch memory, for a thread and that many groups at a site */
     void (*g2p)(mpm *m, brick *b, int thread);
 };
 
@@ -339,8 +341,9 @@ uint64_t mpm_occupied_cells(const brick *b);
 uint64_t mpm_contact_cells(const mpm *m, const brick *b);           /* brick.meets from what is occupied around */
 uint64_t mpm_cells_around(const mpm *m, const brick *b, int reach); /* within `reach` (1, 2) of the group's occupied */
 void mpm_cells_open(const mpm *m, const brick *b, int k, uint64_t open[2]); /* brick.open, nothing beyond a mirror */
-uint64_t mpm_cells_of_layer(int k, int layer);                              /* one of BRICK across axis k */
-uint64_t mpm_cells_towards(int step, int layers); /* so many layers of cells beside the neighbour at a step */
+uint64_t mpm_arrival_cells(const mpm *m, const brick *b); /* whose points give to nodes of ends the group arrives at */
+uint64_t mpm_cells_of_layer(int k, int layer);            /* one of BRICK across axis k */
+uint64_t mpm_cells_towards(int step, int layers);         /* so many layers of cells beside the neighbour at a step */
 
 /* point.c: one point's BLOCK_DOUBLES */
 void mpm_point_halve(double *q, double *other, int k);
