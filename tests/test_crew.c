@@ -580,8 +580,8 @@ static void test_keeper(void **state)
 {
     (void)state;
     breech_case *c = grown_case(true), *whole = grown_case(false);
-    const scene_query to_gauge[] = { grown_query(c, 2200.0), grown_query(c, 2190.0) };
-    const scene_query q[] = { grown_query(whole, 2200.0), grown_query(whole, 2190.0) };
+    const scene_query to_gauge[] = { grown_query(c, 2500.0), grown_query(c, 2490.0) };
+    const scene_query q[] = { grown_query(whole, 2500.0), grown_query(whole, 2490.0) };
     const scene_record *out[2];
     session s;
     open_session(c, "keeper", &s);

@@ -72,7 +72,8 @@ static void test_short_face(void **state)
         snprintf(dir, sizeof dir, "face/%d", i);
         snprintf(command, sizeof command,
                  "scene " GAUGED "-o %s --set output.snapshots=0 --set scene.stop_when_gauged=yes --set "
-                 "armature.head_thickness='2 mm' --set armature.chamfer_height='0.5 mm' --set armature.length='%s mm'",
+                 "scene.contact_pressure='300 MPa' --set armature.head_thickness='2 mm' --set "
+                 "armature.chamfer_height='0.5 mm' --set armature.length='%s mm'",
                  dir, i ? "3.4" : "8");
         assert_int_equal(run(command), 0);
         cJSON *s = summary_of(dir);
@@ -98,6 +99,7 @@ static void test_cells_grow(void **state)
         char command[1500], dir[40];
         snprintf(command, sizeof command,
                  "scene " GAUGED "-o grow/%d --set output.snapshots=0 --set scene.end_time='5 us' "
+                 "--set scene.contact_pressure='300 MPa' "
                  "--set armature.width='20 mm' --set scene.cells_grow=%s",
                  grow, grow ? "yes" : "no");
         assert_int_equal(run(command), 0);

@@ -246,7 +246,7 @@ static void test_classes(void **state)
 {
     (void)state;
     const double whole = 7850.0 * 4.0 / 3.0 * PI * 1e-9;
-    cJSON *rebound = struck("rebound", HEAD("", "3 us") BODIES("hard", "no, shape: {box: {lo: 0"), "");
+    cJSON *rebound = struck("rebound", HEAD("", "4 us") BODIES("hard", "no, shape: {box: {lo: 0"), "");
     assert_text(rebound, "class", "rebound");
     assert_text(rebound, "kind", "strike");
     assert_true(number(rebound, "impact_velocity") == 100.0); /* its own in the scene */

@@ -6,8 +6,8 @@
  *
  *   V = B h F(d),   A = B w(d),   F(d) = integral of w from -infinity to d,
  *
- * with d the depth of the node below the face and w the weight projected on n, both in units of the cell's width h along
- * n.  B is the part of the cell's section that the body takes; it cancels in
+ * with d the depth of the node below the face and w the weight projected on n, both in units of the cell's width h
+ * along n.  B is the part of the cell's section that the body takes; it cancels in
  *
  *   r = V/(A h) = F(d)/w(d),                                                                       (N-13)
  *

@@ -590,8 +590,8 @@ static double volume_made(const node_state *n, double dt)
     return sum;
 }
 
-/* A wall that the group came to, after its forces: once the gap to it is closed the group does not go on, and may leave.
- * A mirror lets it slide, others take it with them. */
+/* A wall that the group came to, after its forces: once the gap to it is closed the group does not go on, and may
+ * leave.  A mirror lets it slide, others take it with them. */
 static void touch_wall(node_side *side, const wall *w, double dt, tally *sum)
 {
     node_state *n = &side->state;
