@@ -46,8 +46,8 @@ static void test_weight(void **state)
     }
 }
 
-/* Two bodies that touch along a plane have depths of opposite sign.  Within half a hundredth of a cell, where the weight
- * is not so small that nothing hangs on it; exactly along an axis of the grid. */
+/* Two bodies that touch along a plane have depths of opposite sign: within two hundredths of a cell, less where the
+ * weight is so small that little hangs on it; exactly along an axis of the grid. */
 static void test_depth(void **state)
 {
     (void)state;
