@@ -26,8 +26,8 @@ typedef struct {
     double dt;       /* of the step [s] */
 } contact_touch;
 
-/* Along n, v_b - v_a and what closes the gap in the step: below 0 where the faces meet.  A gap of a hundredth of a cell
- * counts as closed; the depths that it is found from agree to that on a face that is turned in the grid [m/s]. */
+/* Along n, v_b - v_a and what closes the gap in the step: below 0 where the faces meet.  A gap of two hundredths of a
+ * cell counts as closed; the depths that it is found from agree to that on a face that is turned in the grid [m/s]. */
 static inline double contact_closing(const contact_touch *t)
 {
     static const double CLOSED = 0.02;
