@@ -193,6 +193,7 @@ typedef struct {
 /* Two groups at a node that both have a part of, before any contact acts there (kernel/nodes.c). */
 typedef struct {
     int group[2];                            /* a < b */
+    int along;                               /* axis nearest to the normal */
     double n[3];                             /* unit normal from a to b */
     double apart[3];                         /* v_b - v_a, forces of the step included [m/s] */
     double area, gap, width, shear, reduced; /* as contact_touch has them, of this node alone */
