@@ -190,7 +190,7 @@ static void test_impact(void **state)
     mpm_free(solver);
 }
 
-/* ---- contact_gap: closer than the gap and approaching touch; parting bodies never do ---- */
+/* ---- parting bodies never touch ---- */
 
 static void test_parting(void **state)
 {
