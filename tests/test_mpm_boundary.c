@@ -88,8 +88,7 @@ static void test_what_they_do(void **state)
     const double along = away.velocity[1][2]; /* less than 20 m/s by the friction of the blocks on each other */
     assert_true(along > 10 && mirror.velocity[1][2] > 0.9 * along);
     assert_true(fixed.velocity[1][2] < 0.5 * along && viscous.velocity[1][2] < 0.7 * along);
-    assert_near(away.velocity[0][0], -30, 0.1); /* both blocks end alike: their edges push nothing aside, and friction */
-    assert_near((20 - along) / (away.velocity[1][1] + 10), 0.3, 0.015); /* is of what presses */
+    assert_near(away.velocity[0][0], -30, 0.1);
     assert_true(mirror.velocity[0][0] > -10 && fixed.velocity[0][0] > -10 && viscous.velocity[0][0] > -10);
     assert_true(moved.velocity[0][0] > 10); /* it is pushed inwards with 15 m/s */
 }

@@ -328,19 +328,15 @@ static double depth_of(const mpm *m, const node_state *s, double out, const cont
 }
 
 /* The normal is the volume gradient of one side alone, `of` (mpm_pair.normal_of): behind the edge of the other a
- * difference of gradients tilts and reads sliding as approach.  Where both sides end, what their gradients have in common
- * is the way out of both, and goes.  Where that side has no surface at the node (deep overlap) the difference must serve.
- * False: they do not touch. */
+ * difference of gradients tilts and reads sliding as approach.  Where that side has no surface at the node (deep
+ * overlap) the difference must serve.  False: they do not touch. */
 static bool geometry(const mpm *m, const node_state *a, const node_state *b, bool of_b, const node_place *at,
                      contact_touch *t)
 {
     const double *h = at->h;
-    const node_state *one = of_b ? b : a, *other = of_b ? a : b;
+    const node_state *one = of_b ? b : a;
     double d[3];
-    for (int k = 0; k < 3; k++) {
-        const double common = fmax(copysign(1, one->extra[k]) * other->extra[k], 0);
-        d[k] = copysign(fmax(fabs(one->extra[k]) - common, 0), of_b ? -one->extra[k] : one->extra[k]);
-    }
+    for (int k = 0; k < 3; k++) d[k] = of_b ? -one->extra[k] : one->extra[k];
     const double smallest = fmin(h[0], fmin(h[1], h[2]));
     if (sqrt(dot(d, d)) * smallest < 0.05 * one->extra[3])
         for (int k = 0; k < 3; k++) d[k] = a->extra[k] - b->extra[k];
