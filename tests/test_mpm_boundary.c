@@ -70,7 +70,8 @@ static void test_every_boundary(void **state)
         for (int b = 0; b < 2; b++)
             for (int k = 0; k < 3; k++) {
                 const double mirrored = k == 0 ? -upper.velocity[b][k] : upper.velocity[b][k];
-                if (!(fabs(lower.velocity[b][k] - mirrored) < 1e-4 * 30)) /* rounding says when a face on a plane reaches the next node */
+                /* 1e-4: rounding says in which step a face on a plane of the grid reaches the next node */
+                if (!(fabs(lower.velocity[b][k] - mirrored) < 1e-4 * 30))
                     fail_msg("%s: component %d of block %d: %.12g m/s at the lower end, %.12g at the upper",
                              mpm_boundary_names[kind], k, b, lower.velocity[b][k], mirrored);
             }
