@@ -98,7 +98,7 @@ static void test_cells_grow(void **state)
     for (int grow = 0; grow < 2; grow++) {
         char command[1500], dir[40];
         snprintf(command, sizeof command,
-                 "scene " GAUGED "-o grow/%d --set output.snapshots=0 --set scene.end_time='5 us' "
+                 "scene " GAUGED "-o grow/%d --set output.snapshots=0 --set scene.end_time='7 us' "
                  "--set scene.contact_pressure='300 MPa' "
                  "--set armature.width='20 mm' --set scene.cells_grow=%s",
                  grow, grow ? "yes" : "no");
