@@ -349,6 +349,7 @@ bool mpm_interface_in_contact(const mpm *m, const brick *b)
     const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1),
                      *finer = level_at(m, b->level - 1);
     const node_box near = nodes_of(b->at, REACH), own = existing(g, near);
+    if (m->arrivals && mpm_near_arrival(m, b, REACH)) return true;
     if (others_in(m, b->group, b->level, &own)) return true;
     if (coarser) {
         const node_box c = to_coarse(&near), there = existing(coarser, c);
@@ -377,10 +378,9 @@ static int cell_of(const int node[3])
 
 /* ---- sums go to the nodes that are followed ---- */
 
-/* Adds share x the sums of another level's node, which lies `off` from this one; `change` is that of the motion from
- * there to here [m/s]. */
-static void add_from(brick *b, int cell, const brick *from, int from_cell, double share, const double off[3],
-                     const double change[3], double dt)
+/* Adds share x the sums of another level's node; `change` is that of the motion from there to here [m/s]. */
+static void add_from(brick *b, int cell, const brick *from, int from_cell, double share, const double change[3],
+                     double dt)
 {
     const double *line = from->line[from_cell], *extra = from->line[BRICK_CELLS + from_cell];
     double *to = b->line[cell], *to_extra = b->line[BRICK_CELLS + cell];
@@ -391,7 +391,6 @@ static void add_from(brick *b, int cell, const brick *from, int from_cell, doubl
     }
     if (!b->across || !from->across) return;
     for (int i = 0; i < LINE; i++) to_extra[i] += share * extra[i];
-    (void)off;
 }
 
 /* Sums of the node before or after one along axis k, NULL where its mass is not above `least`. */
@@ -420,7 +419,6 @@ void mpm_interface_slope(const mpm *m, const brick *b, int cell, int k, double l
 /* From a fine node to those of a coarse brick that it follows. */
 static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[3], brick *b)
 {
-    const grid_level *g = &m->grids.level[b->level], *finer = g - 1;
     const node_box own = nodes_of(b->at, 0), one = { { f[0], f[1], f[2] }, { f[0], f[1], f[2] } };
     const node_box followed = to_coarse(&one), c = inside(followed, own.lo, own.hi);
     if (is_empty(&c)) return;
@@ -431,13 +429,11 @@ static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[
         for (int y = c.lo[1]; y <= c.hi[1]; y++)
             for (int x = c.lo[0]; x <= c.hi[0]; x++) {
                 const int to[3] = { x, y, z };
-                double off[3], change[3] = { 0 };
-                for (int k = 0; k < 3; k++) {
-                    off[k] = finer->axes[k].node[f[k]] - g->axes[k].node[to[k]];
+                double change[3] = { 0 };
+                for (int k = 0; k < 3; k++)
                     for (int i = 0; i < 3; i++) change[i] += to[k] > followed.lo[k] ? slope[k][i] : -slope[k][i];
-                }
                 const int cell = cell_index(x - own.lo[0], y - own.lo[1], z - own.lo[2]);
-                add_from(b, cell, from, from_cell, share, off, change, level_dt(m, from->level));
+                add_from(b, cell, from, from_cell, share, change, level_dt(m, from->level));
             }
 }
 
@@ -471,7 +467,7 @@ static void receive_from_coarser(const mpm *m, brick *b)
         const int cell = next_node(b, &set, node);
         const int c[3] = { 1 + node[0] / 2, 1 + node[1] / 2, 1 + node[2] / 2 };
         const brick *from = brick_with(m, b->group, b->level + 1, c);
-        if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, none, 0);
+        if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, 0);
     }
 }
 

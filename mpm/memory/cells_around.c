@@ -79,6 +79,15 @@ uint64_t mpm_cells_of_layer(int k, int layer)
     return first_layer[k] << layer * (1 << 2 * k);
 }
 
+bool mpm_near_arrival(const mpm *m, const brick *b, int reach)
+{
+    for (int face = 0; face < MPM_FACES; face++) {
+        const int k = face / 2, end = face % 2 ? axes_of(m, b)[k].last : 1, first = BRICK * b->at[k];
+        if (m->group[b->group].arrives[face] && first - reach <= end && end <= first + BRICK - 1 + reach) return true;
+    }
+    return false;
+}
+
 uint64_t mpm_arrival_cells(const mpm *m, const brick *b)
 {
     uint64_t cells = 0;

@@ -343,6 +343,7 @@ uint64_t mpm_contact_cells(const mpm *m, const brick *b);           /* brick.mee
 uint64_t mpm_cells_around(const mpm *m, const brick *b, int reach); /* within `reach` (1, 2) of the group's occupied */
 void mpm_cells_open(const mpm *m, const brick *b, int k, uint64_t open[2]); /* brick.open, nothing beyond a mirror */
 uint64_t mpm_arrival_cells(const mpm *m, const brick *b); /* whose points give to nodes of ends the group arrives at */
+bool mpm_near_arrival(const mpm *m, const brick *b, int reach); /* does such an end lie at most so many nodes away? */
 uint64_t mpm_cells_of_layer(int k, int layer);            /* one of BRICK across axis k */
 uint64_t mpm_cells_towards(int step, int layers);         /* so many layers of cells beside the neighbour at a step */
 
