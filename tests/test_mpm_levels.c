@@ -154,8 +154,9 @@ static void test_flight(void **state)
     }
 }
 
-/* Past an end of the window that the boxes reach, or come to from `away`: what goes out there, out of cells of any size,
- * is booked, and so is what the end does to the rest.  A mirror that does not act on the cube does nothing to it. */
+/* Past an end of the window that the boxes reach, or come to from `away`: what goes out there, out of cells of any
+ * size, is booked, and so is what the end does to the rest.  A mirror that does not act on the cube does nothing to
+ * it. */
 static void check_ends(double away, double speed)
 {
     static const struct {
