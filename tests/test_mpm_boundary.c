@@ -4,11 +4,11 @@
 
 static const double H = 0.5e-3, FAR = 6e-3, DEEP = 2e-3, END = 3e-6;
 
-/* Two blocks of two groups at one end of x, the upper at end 1.  They fly towards it, one of them along it as well, and
- * along the other. */
-static void end_scene(mpm_scene *s, const mpm_material *m, int kind, int end)
+/* Two blocks of two groups at one end of x, or `away` from it, the upper at end 1.  They fly towards it, one of them
+ * along it as well, and along the other. */
+static void end_scene(mpm_scene *s, const mpm_material *m, int kind, int end, double away)
 {
-    const double lo = end ? -1 : 0, hi = end ? 0 : 1, out = end ? 30 : -30;
+    const double lo = end ? -1 : 0, hi = end ? 0 : 1, out = end ? 30 : -30, off = end ? -away : away;
     mpm_scene_default(s);
     s->axis[0] = scene_axis(lo * FAR, hi * FAR, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     s->axis[1] = scene_axis(-3e-3, 3e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
@@ -17,8 +17,8 @@ static void end_scene(mpm_scene *s, const mpm_material *m, int kind, int end)
     const double moved[] = { -0.5 * out, 8, 3 };
     memcpy(s->axis[0].boundary_velocity[end], moved, sizeof moved);
     scene_friction(s, 0.3);
-    scene_box(s, lo * DEEP, -1e-3, 0, hi * DEEP, 0, 1e-3, m)->velocity[0] = out;
-    mpm_body *b = scene_box(s, lo * DEEP, 0, 0, hi * DEEP, 1e-3, 1e-3, m);
+    scene_box(s, lo * DEEP + off, -1e-3, 0, hi * DEEP + off, 0, 1e-3, m)->velocity[0] = out;
+    mpm_body *b = scene_box(s, lo * DEEP + off, 0, 0, hi * DEEP + off, 1e-3, 1e-3, m);
     b->group = 1;
     b->velocity[0] = out, b->velocity[1] = -10, b->velocity[2] = 20;
 }
@@ -44,7 +44,7 @@ static outcome run_end(int kind, int end)
 {
     const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
-    end_scene(&s, &m, kind, end);
+    end_scene(&s, &m, kind, end, 0);
     return run_scene(&s);
 }
 
@@ -78,6 +78,19 @@ static void test_every_boundary(void **state)
     }
 }
 
+/* The same where the blocks come to the end, rubbing on each other there. */
+static void test_coming(void **state)
+{
+    (void)state;
+    const mpm_material m = scene_copper();
+    for (int kind = 0; kind < MPM_BOUNDARIES; kind++) {
+        SCENE_LOCAL(s);
+        end_scene(&s, &m, kind, 0, 0.1 * H);
+        const outcome o = run_scene(&s);
+        check_books(kind, &o);
+    }
+}
+
 /* What each says of itself, of two blocks that were let fly into it with 30 m/s, one of them along it with 20 m/s too.
  */
 static void test_what_they_do(void **state)
@@ -103,7 +116,7 @@ static void test_edges(void **state)
     for (int x = 0; x < MPM_BOUNDARIES; x++)
         for (int z = 0; z < MPM_BOUNDARIES; z++) {
             SCENE_LOCAL(s);
-            end_scene(&s, &m, x, 0);
+            end_scene(&s, &m, x, 0, 0);
             s.axis[2] = scene_axis(0, 2e-3, H, (mpm_boundary_kind)z, MPM_BOUNDARY_FREE);
             const double moved[] = { 4, 2, 9 };
             memcpy(s.axis[2].boundary_velocity[0], moved, sizeof moved);
@@ -204,8 +217,9 @@ static void test_each_pressure(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_every_boundary), cmocka_unit_test(test_what_they_do),
-                                        cmocka_unit_test(test_edges),          cmocka_unit_test(test_after_a_contact),
-                                        cmocka_unit_test(test_held_up),        cmocka_unit_test(test_each_pressure) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_every_boundary),  cmocka_unit_test(test_coming),
+                                        cmocka_unit_test(test_what_they_do),    cmocka_unit_test(test_edges),
+                                        cmocka_unit_test(test_after_a_contact), cmocka_unit_test(test_held_up),
+                                        cmocka_unit_test(test_each_pressure) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

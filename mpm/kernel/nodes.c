@@ -598,31 +598,36 @@ static double volume_made(const node_state *n, double dt)
 static void touch_wall(node_side *side, const wall *w, double dt, tally *sum)
 {
     node_state *n = &side->state;
-    const double area = (w->end ? 1 : -1) * n->extra[w->axis] * w->size, V = n->extra[3],
-                 rough = w->kind != MPM_BOUNDARY_SYMMETRY;
+    const double area = (w->end ? 1 : -1) * n->extra[w->axis] * w->size, V = n->extra[3];
+    const bool rough = w->kind != MPM_BOUNDARY_SYMMETRY;
+    static const double at_rest[3] = { 0 };
+    const double *moving = w->kind == MPM_BOUNDARY_PRESCRIBED ? w->velocity : at_rest;
     contact_touch t = { .width = w->size, .dt = dt, .reduced = n->m };
     if (!(area > 0)) return;
     t.n[w->axis] = w->end ? 1 : -1;
     t.gap = -w->size * face_depth_aligned(V / area);
-    for (int k = 0; k < 3; k++) t.apart[k] = (rough ? w->velocity[k] : 0) - n->v[k];
+    for (int k = 0; k < 3; k++) t.apart[k] = moving[k] - n->v[k];
     const double closing = contact_closing(&t), left = closing - dot(t.apart, t.n);
     if (!(closing < 0)) return;
     for (int k = 0; k < 3; k++) {
-        const double change = k == w->axis || rough ? t.apart[k] + left * t.n[k] : 0,
-                     moving = rough ? w->velocity[k] : 0;
+        const double change = k == w->axis || rough ? t.apart[k] + left * t.n[k] : 0;
         n->v[k] += change;
-        n->heat -= n->m * change * (0.5 * (n->v_start[k] + n->v[k]) - moving);
+        n->heat -= n->m * change * (0.5 * (n->v_start[k] + n->v[k]) - moving[k]);
         sum->impulse_boundary[k] += n->m * change;
-        sum->work_boundary += n->m * change * moving;
+        sum->work_boundary += n->m * change * moving[k];
     }
+}
+
+static void touch_walls(const mpm *m, node_side *side, double dt, tally *sum)
+{
+    for (int i = 0; i < side->n_walls && !is_held(m, side); i++)
+        if (side->walls[i].arrives) touch_wall(side, &side->walls[i], dt, sum);
 }
 
 /* The last of a group at a node: walls that act again, what is booked, the node itself. */
 static void end_side(mpm *m, node_side *side, int cell, bool again, int gas, double *swept, double dt, tally *sum)
 {
     if (again) apply_walls(m, side, cell, BOUNDARY_AGAIN, dt, sum);
-    for (int i = 0; i < side->n_walls && !is_held(m, side); i++)
-        if (side->walls[i].arrives) touch_wall(side, &side->walls[i], dt, sum);
     if (gas) swept[gas - 1] += volume_made(&side->state, dt);
     finish_node(&side->state, brick_nodes(m, side->brick)[cell], sum);
 }
@@ -693,7 +698,10 @@ static void one_node(mpm *m, const scratch *at, touch_site *t, int count, int ce
         if (!note_shared(m, t, side, here, h, dt)) sum->stranded = true;
         return;
     }
-    for (int s = 0; s < here; s++) end_side(m, &side[s], cell, count > 1, at->gas, at->swept, dt, sum);
+    for (int s = 0; s < here; s++) {
+        touch_walls(m, &side[s], dt, sum);
+        end_side(m, &side[s], cell, count > 1, at->gas, at->swept, dt, sum);
+    }
 }
 
 /* The contacts at a node that groups share, whose trials begin with `first`. */
@@ -711,7 +719,8 @@ static void touch_node_at(mpm *m, const scratch *at, const touch_site *t, int fi
             *p = (touching){ &side[a], &side[b], { 0 } };
             if (r && contact_pair(m, p, cell, r, dt, sum)) pairs++;
         }
-    for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum);
+    for (int s = 0; s < here; s++) touch_walls(m, &side[s], dt, sum);
+    for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum); /* of the motion that the walls leave */
     for (int s = 0; s < here; s++) end_side(m, &side[s], cell, true, at->gas, at->swept, dt, sum);
 }
 
