@@ -190,7 +190,7 @@ static void find_arrivals(mpm *m)
             const mpm_boundary_kind kind = m->scene.axis[face / 2].boundary[face % 2];
             const bool holds = kind != MPM_BOUNDARY_FREE && kind != MPM_BOUNDARY_ABSORBING;
             m->group[g].arrives[face] = holds && !m->group[g].passes[face] && way_to_end(m, g, face) > BESIDE;
-            m->arrivals = m->arrivals || m->group[g].arrives[face];
+            m->arrivals = m->arrivals || m->group[g].arrives[face] || kind == MPM_BOUNDARY_ABSORBING;
         }
 }
 

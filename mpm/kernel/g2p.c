@@ -147,6 +147,14 @@ LANE_INLINE void gather(const weights w[3], const cell_nodes n, gathered *r, ahe
     }
 }
 
+/* Of the faces that a load acts on, across axis k. */
+LANE_INLINE void face_velocity(const weights w[3], weights across, int k, const cell_nodes n, vd v[3])
+{
+    weights at[3] = { w[0], w[1], w[2] };
+    at[k] = across;
+    for (int q = 0; q < 3; q++) v[q] = interpolate(at, n, q, NULL);
+}
+
 /* ---- the part of a block that begins with `lane` ---- */
 
 /* Holes stay at rest. */
@@ -171,14 +179,15 @@ LANE_INLINE vd bound_gradient(const law *k, law_form f, const block *q, int lane
     return vd_sqrt(vd_select(over, kept / vd_max(wanted, vd_set(1e-300)), vd_set(1)));
 }
 
-/* Moves and stretches; the work of the loads. */
-LANE_INLINE vd move(block *q, int lane, const gathered *r, const step_of *step)
+/* Moves and stretches; the work of the loads, those on a face at its velocity. */
+LANE_INLINE vd move(block *q, int lane, const gathered *r, const vd face[3], const step_of *step)
 {
     const vd area = vd_load(&q->area[0][lane]), m = vd_load(&q->mass[0][lane]);
     vd work = vd_set(0);
     for (int k = 0; k < 3; k++) {
         double *v = &q->v[k][lane], *x = &q->x[k][lane], *half = &q->half[k][lane];
-        work += (m * step->force[k] + area * step->traction[k]) * (0.5 * step->dt) * (r->v[k] + vd_load(v));
+        work += (0.5 * step->dt) * (m * step->force[k] * (r->v[k] + vd_load(v)) +
+                                    area * step->traction[k] * (face[k] + vd_load(v)));
         vd_store(v, r->v[k]);
         vd_store(x, vd_load(x) + step->dt * r->v[k]);
         const vd grown = vd_load(half) * (1 + step->dt * r->L[4 * k]);
@@ -214,12 +223,12 @@ LANE_INLINE void book(books *t, const block *q, int lane, const lane_sums *w)
 }
 
 /* Before the points move: their velocity at the step's start is that which p2g.c took. */
-LANE_INLINE vd work_of_wave(const block *q, int lane, const gathered *r, const step_of *step, books *t)
+LANE_INLINE vd work_of_wave(const block *q, int lane, const vd face[3], const step_of *step, books *t)
 {
     const wave_load *w = &step->wave;
     const vd v = vd_load(&q->v[w->axis][lane]), push = vd_load(&q->area[0][lane]) * wave_push(w, v);
     t->push += push;
-    return push * (0.5 * step->dt) * (r->v[w->axis] + v);
+    return push * (0.5 * step->dt) * (face[w->axis] + v);
 }
 
 /* A run of blocks of one body, in a cell: what their kernels need to know, and what is booked of them. */
@@ -339,6 +348,8 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
     const law *k = &m->laws[run->body];
     const law_form f = law_form_of(k, kernel);
     int leaving = 0;
+    const mpm_body *of = &m->scene.body[run->body];
+    const bool loaded = has_face_load(of, &run->step.wave);
     double least[3];
     least_domain(m, b, g, run->body, least);
     ahead next = ahead_of(m, index, FIRST_start, 1 + 5 * LANES / WIDTH);
@@ -363,8 +374,11 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         }
         prefetch_share(&next);
         const bool wave = kernel == LAW_FLUID && run->step.wave.on;
-        const vd work = wave ? work_of_wave(q, lane, &r, &run->step, &run->books) : vd_set(0);
-        sum.work_external = move(q, lane, &r, &run->step);
+        vd face[3] = { r.v[0], r.v[1], r.v[2] };
+        if (loaded) face_velocity(w, face_weights(g, least, of->traction_face, q, lane, &w[of->traction_face / 2]),
+                                  of->traction_face / 2, nodes, face);
+        const vd work = wave ? work_of_wave(q, lane, face, &run->step, &run->books) : vd_set(0);
+        sum.work_external = move(q, lane, &r, face, &run->step);
         if (wave) sum.work_external += work;
         run->flows |= law_step(k, f, &run->step, &moved, q, lane, run->near, &sum);
         prefetch_share(&next);

@@ -280,4 +280,26 @@ LANE_INLINE weights cell_weights(const cell_grid *g, const double narrowest[3], 
                       : weights_gimp(g->axis[k], narrowest[k], x, vd_load(&q->half[k][lane]));
 }
 
+/* Those of a load on a face of the points' domains (mpm_body.traction_face), across it: the stress in the domains adds
+ * up to the hat functions at the face, so the load acts on the nodes by them.  A spline's points have no face. */
+LANE_INLINE weights face_weights(const cell_grid *g, const double narrowest[3], int face, const block *q, int lane,
+                                 const weights *of)
+{
+    const int k = face / 2;
+    const cell_axis *c = g->axis[k];
+    weights r = *of;
+    if (g->bspline) return r;
+    const vd l = vd_max(vd_min(vd_load(&q->half[k][lane]), vd_set(c->widest)), vd_set(narrowest[k]));
+    const vd t = vd_load(&q->x[k][lane]) - c->x[1] + (face % 2 ? 1 : -1) * l;
+    r.w[0] = (vd_set(0) - vd_min(t, vd_set(0))) * c->inv_left;
+    r.w[2] = vd_max(t, vd_set(0)) * c->inv_right;
+    r.w[1] = vd_set(1) - r.w[0] - r.w[2];
+    return r;
+}
+
+LANE_INLINE bool has_face_load(const mpm_body *body, const wave_load *wave)
+{
+    return wave->on || body->traction[0] != 0 || body->traction[1] != 0 || body->traction[2] != 0;
+}
+
 #endif

@@ -147,9 +147,17 @@ LANE_INLINE void add_wave(const wave_load *w, vd area, const vd v[3], double hal
     base[7] += half_step * push * v[w->axis];
 }
 
-/* lanes: 0 m, 1-3 momentum, 4-6 force, 7 energy */
+/* Force on the points' faces, and its power at their velocity. */
+LANE_INLINE void face_load(const mpm_body *body, const wave_load *wave, vd area, const vd v[3], vd load[3], vd *power)
+{
+    for (int i = 0; i < 3; i++) load[i] = area * body->traction[i];
+    if (wave->on) load[wave->axis] += area * wave_push(wave, v[wave->axis]);
+    *power = load[0] * v[0] + load[1] * v[1] + load[2] * v[2];
+}
+
+/* lanes: 0 m, 1-3 momentum, 4-6 force, 7 energy; `face`: weights of the load on a face, NULL without one */
 LANE_INLINE void motion_lines(const block *q, int lane, const law *material, double affine, const mpm_body *body,
-                              const wave_load *wave, half_steps dt, const weights w[3], lines *n)
+                              const wave_load *wave, half_steps dt, const weights w[3], const weights *face, lines *n)
 {
     static const int column[3][3] = { { 0, 3, 4 }, { 3, 1, 5 }, { 4, 5, 2 } };
 #define AT(field) vd_load(&q->field[lane])
@@ -167,6 +175,8 @@ LANE_INLINE void motion_lines(const block *q, int lane, const law *material, dou
     }
     if (wave->on) add_wave(wave, area, v, dt.now, base);
     store_lines(n->base, base, lane);
+    vd on_face[3], power;
+    if (face) face_load(body, wave, area, v, on_face, &power);
     for (int k = 0; k < 3; k++) {
         const int *c = column[k];
         const vd push = dt.now * (s[c[0]] * v[0] + s[c[1]] * v[1] + s[c[2]] * v[2]);
@@ -180,6 +190,11 @@ LANE_INLINE void motion_lines(const block *q, int lane, const law *material, dou
             vd row[LINE] = { vd_set(0) };
             for (int i = 0; i < 3; i++) row[1 + i] = moment * turn[i], row[4 + i] = grad * s[c[i]];
             row[7] = moment * swing + grad * push + (grad * d - weight) * stretch[k];
+            if (face && k == body->traction_face / 2) {
+                const vd more = face->w[2 * a] - weight;
+                for (int i = 0; i < 3; i++) row[4 + i] += more * on_face[i];
+                row[7] += more * dt.now * power;
+            }
             for (int i = 0; i < LINE && k == 0; i++) row[i] += weight * base[i];
             store_lines(k == 0 ? n->A[a] : k == 1 ? n->Y[a] : n->Z[a], row, lane);
         }
@@ -269,7 +284,11 @@ static __attribute__((noinline)) void one_block(const mpm *m, const brick *b, in
         const weights w[3] = { cell_weights(g, least, 0, q, lane), cell_weights(g, least, 1, q, lane),
                                cell_weights(g, least, 2, q, lane) };
         store_factors(&f, w, lane);
-        motion_lines(q, lane, &m->laws[m->links[index].body], c->affine, body, wave, c->dt, w, &n);
+        const bool loaded = has_face_load(body, wave);
+        weights face;
+        if (loaded) face = face_weights(g, least, body->traction_face, q, lane, &w[body->traction_face / 2]);
+        motion_lines(q, lane, &m->laws[m->links[index].body], c->affine, body, wave, c->dt, w, loaded ? &face : NULL,
+                     &n);
         if (c->meets) surface_of(q, lane, w, &s);
         if (c->meets && c->mixed)
             vd_store(&s.heat[lane], vd_load(&q->mass[0][lane]) * m->effusivity[m->links[index].body]);

@@ -79,11 +79,16 @@ uint64_t mpm_cells_of_layer(int k, int layer)
     return first_layer[k] << layer * (1 << 2 * k);
 }
 
+static bool wants_face(const mpm *m, int group, int face)
+{
+    return m->group[group].arrives[face] || m->scene.axis[face / 2].boundary[face % 2] == MPM_BOUNDARY_ABSORBING;
+}
+
 bool mpm_near_arrival(const mpm *m, const brick *b, int reach)
 {
     for (int face = 0; face < MPM_FACES; face++) {
         const int k = face / 2, end = face % 2 ? axes_of(m, b)[k].last : 1, first = BRICK * b->at[k];
-        if (m->group[b->group].arrives[face] && first - reach <= end && end <= first + BRICK - 1 + reach) return true;
+        if (wants_face(m, b->group, face) && first - reach <= end && end <= first + BRICK - 1 + reach) return true;
     }
     return false;
 }
@@ -92,7 +97,7 @@ uint64_t mpm_arrival_cells(const mpm *m, const brick *b)
 {
     uint64_t cells = 0;
     for (int face = 0; face < MPM_FACES; face++) {
-        if (!m->group[b->group].arrives[face]) continue;
+        if (!wants_face(m, b->group, face)) continue;
         const int k = face / 2, end = face % 2 ? axes_of(m, b)[k].last : 1;
         for (int i = 0; i < BRICK; i++)
             if (abs(BRICK * b->at[k] + i - end) <= 1) cells |= mpm_cells_of_layer(k, i);
