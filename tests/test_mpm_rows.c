@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of points by a face, an end, a film, a cavity and a seam carry what a plane wave of sound leaves there, wherever
- * the planes of the grid lie.  Every point by the face is looked at, never a mean: a node just beyond a face holds next
- * to no mass, and if it flies, one row carries nothing and the next one twice the stress while their mean stays right.
+/* Rows of points by a face, an end, a load, a film, a cavity and a seam carry what a plane wave of sound leaves there,
+ * wherever the planes of the grid lie.  Every point by the face is looked at, never a mean: a node just beyond a face
+ * holds next to no mass, and if it flies, one row carries nothing and the next one twice the stress while their mean
+ * stays right.
  *
  * Bars of one cell across between mirrors, elastic, with waves so weak that the answer is linear:
  *   sigma = rho c u,   u the change of velocity                                                          (1)
@@ -203,21 +204,84 @@ static void test_rests_under_pressure(void **state)
 {
     (void)state;
     static const double P = 1e8, ROUNDING = 1e-9;
+    static const mpm_boundary_kind ENDS[] = { MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FIXED, MPM_BOUNDARY_ABSORBING };
+    static const char *const WHAT[] = { "rests between mirrors", "rests between fixed ends",
+                                        "rests between absorbing ends" };
     const mpm_material m = scene_elastic();
-    for (int rough = 0; rough < 2; rough++) {
+    for (int e = 0; e < 3; e++) {
         table rest = no_table();
-        for (int i = 0; i < (rough ? GIMP_KINDS : KINDS); i++) {
+        for (int i = 0; i < (e > 0 ? GIMP_KINDS : KINDS); i++) {
             const grid_kind g = kind_of(i);
             SCENE_LOCAL(s);
             bar(&s, 0, 15 * H, &g);
-            s.axis[0].boundary[0] = s.axis[0].boundary[1] = rough ? MPM_BOUNDARY_FIXED : MPM_BOUNDARY_SYMMETRY;
+            s.axis[0].boundary[0] = s.axis[0].boundary[1] = ENDS[e];
             piece(&s, 0, 15 * H, 0, 0, &m)->pressure = P;
             mpm *solver = made_and_run(&s, sound_time(&m, 6e-3));
             rest.worst[i] = worst_row(solver, 0, 1, P) / P;
             mpm_free(solver);
         }
-        check_table(rough ? "rests between fixed ends" : "rests between mirrors", &rest, ROUNDING, SPLINE);
+        check_table(WHAT[e], &rest, ROUNDING, SPLINE);
     }
+}
+
+/* ---- loads ---- */
+
+/* A pressure acts at once on the lower face of a body, and its wave has not yet come to the other side: a traction on a
+ * solid, or a wave that enters water, which goes on moving its face. */
+static double by_load(const grid_kind *g, double pressure, bool wave)
+{
+    const mpm_material m = wave ? scene_water() : scene_elastic();
+    const double way = 2.4e-3;
+    SCENE_LOCAL(s);
+    bar(&s, -5 * H, 3e-3, g);
+    mpm_body *b = piece(&s, 0, 3e-3, 0, 0, &m);
+    b->traction_face = 0; /* -x */
+    if (wave)
+        b->wave_pressure = pressure;
+    else
+        b->traction[0] = pressure;
+    mpm *solver = made_and_run(&s, way / (wave ? WATER_C0 : mpm_material_longitudinal_speed(&m)));
+    const double worst = worst_row(solver, -H, 8 * H, pressure) / fabs(pressure);
+    mpm_free(solver);
+    return worst;
+}
+
+/* A traction that presses, and one that pulls; a wave. */
+static void test_loads(void **state)
+{
+    (void)state;
+    table pressed = no_table(), pulled = no_table(), wave = no_table();
+    for (int i = 0; i < GIMP_KINDS; i++) {
+        const grid_kind g = kind_of(i);
+        pressed.worst[i] = by_load(&g, 1e7, false);
+        pulled.worst[i] = by_load(&g, -1e7, false);
+        wave.worst[i] = by_load(&g, 1e5, true);
+    }
+    check_table("pressed by a traction", &pressed, GIMP, 0);
+    check_table("pulled by a traction", &pulled, GIMP, 0);
+    check_table("a wave enters water", &wave, GIMP, 0);
+}
+
+/* A traction presses a body against an absorbing end: nothing comes back from there, and the end holds against it.  The
+ * loaded face lies beside the planes: on one of them rounding leaves the node beyond it some mass in the first step. */
+static void test_pressed_on_an_absorbing_end(void **state)
+{
+    (void)state;
+    static const double P = 1e7;
+    const mpm_material m = scene_elastic();
+    table end = no_table();
+    for (int i = 0; i < GIMP_KINDS; i++) {
+        const grid_kind g = kind_of(i);
+        SCENE_LOCAL(s);
+        bar(&s, 0, 25 * H, &g);
+        s.axis[0].boundary[0] = MPM_BOUNDARY_ABSORBING;
+        mpm_body *b = piece(&s, 0, 20.05 * H, 0, 0, &m);
+        b->traction[0] = -P, b->traction_face = 1; /* +x */
+        mpm *solver = made_and_run(&s, sound_time(&m, 60 * H));
+        end.worst[i] = worst_row(solver, 0, 25 * H, P) / P;
+        mpm_free(solver);
+    }
+    check_table("pressed on an absorbing end", &end, GIMP, 0);
 }
 
 /* ---- films ---- */
@@ -335,10 +399,15 @@ static void test_seams(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_free_face),       cmocka_unit_test(test_beside_an_end),
-        cmocka_unit_test(test_comes_to_an_end), cmocka_unit_test(test_rests_under_pressure),
-        cmocka_unit_test(test_films),           cmocka_unit_test(test_cavity),
+        cmocka_unit_test(test_free_face),
+        cmocka_unit_test(test_beside_an_end),
+        cmocka_unit_test(test_comes_to_an_end),
+        cmocka_unit_test(test_rests_under_pressure),
+        cmocka_unit_test(test_films),
+        cmocka_unit_test(test_cavity),
         cmocka_unit_test(test_seams),
+        cmocka_unit_test(test_loads),
+        cmocka_unit_test(test_pressed_on_an_absorbing_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

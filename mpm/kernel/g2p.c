@@ -186,8 +186,8 @@ LANE_INLINE vd move(block *q, int lane, const gathered *r, const vd face[3], con
     vd work = vd_set(0);
     for (int k = 0; k < 3; k++) {
         double *v = &q->v[k][lane], *x = &q->x[k][lane], *half = &q->half[k][lane];
-        work += (0.5 * step->dt) * (m * step->force[k] * (r->v[k] + vd_load(v)) +
-                                    area * step->traction[k] * (face[k] + vd_load(v)));
+        work += (0.5 * step->dt) *
+                (m * step->force[k] * (r->v[k] + vd_load(v)) + area * step->traction[k] * (face[k] + vd_load(v)));
         vd_store(v, r->v[k]);
         vd_store(x, vd_load(x) + step->dt * r->v[k]);
         const vd grown = vd_load(half) * (1 + step->dt * r->L[4 * k]);
@@ -375,8 +375,9 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         prefetch_share(&next);
         const bool wave = kernel == LAW_FLUID && run->step.wave.on;
         vd face[3] = { r.v[0], r.v[1], r.v[2] };
-        if (loaded) face_velocity(w, face_weights(g, least, of->traction_face, q, lane, &w[of->traction_face / 2]),
-                                  of->traction_face / 2, nodes, face);
+        if (loaded)
+            face_velocity(w, face_weights(g, least, of->traction_face, q, lane, &w[of->traction_face / 2]),
+                          of->traction_face / 2, nodes, face);
         const vd work = wave ? work_of_wave(q, lane, face, &run->step, &run->books) : vd_set(0);
         sum.work_external = move(q, lane, &r, face, &run->step);
         if (wave) sum.work_external += work;

@@ -344,8 +344,8 @@ uint64_t mpm_cells_around(const mpm *m, const brick *b, int reach); /* within `r
 void mpm_cells_open(const mpm *m, const brick *b, int k, uint64_t open[2]); /* brick.open, nothing beyond a mirror */
 uint64_t mpm_arrival_cells(const mpm *m, const brick *b); /* whose points give to nodes of ends that ask for its face */
 bool mpm_near_arrival(const mpm *m, const brick *b, int reach); /* does such an end lie so many nodes away? */
-uint64_t mpm_cells_of_layer(int k, int layer);            /* one of BRICK across axis k */
-uint64_t mpm_cells_towards(int step, int layers);         /* so many layers of cells beside the neighbour at a step */
+uint64_t mpm_cells_of_layer(int k, int layer);                  /* one of BRICK across axis k */
+uint64_t mpm_cells_towards(int step, int layers); /* so many layers of cells beside the neighbour at a step */
 
 /* point.c: one point's BLOCK_DOUBLES */
 void mpm_point_halve(double *q, double *other, int k);
