@@ -14,7 +14,8 @@
 #include <string.h>
 
 static const int SCATTERED = 8;       /* the blocks' order in memory is restored when one of so many is out of it */
-static const int SAMPLE_EVERY = 20;   /* the same between percentile samples */
+static const int SAMPLE_EVERY = 20;   /* steps of the finest level between percentile samples */
+static const int RELAX_EVERY = 16;    /* the same between relaxations of pressure */
 enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody touches costs nothing, growing does */
 static const double DT_GROWTH = 1.05; /* a step of the coarsest level */
 static const double DT_LEAST = 1.0 / 300;     /* of the first step: no shock up to 10 km/s needs less */
@@ -113,6 +114,7 @@ static status make_groups(mpm *m)
         g->first = i;
         memcpy(g->passes, s->body[i].passes, sizeof g->passes);
         g->held = s->body[i].held;
+        if (++g->bodies > m->most_bodies) m->most_bodies = g->bodies;
     }
     for (int i = 0; i < s->bodies; i++) {
         group_info *g = &m->group[s->body[i].group];
@@ -656,11 +658,43 @@ static status one_substep(mpm *m, int n, tally *sum)
     return status_ok();
 }
 
-/* Is it time for what is done every so many steps of the finest level, when all are in step? */
-static bool is_due(const mpm *m, int every)
+/* Steps of the coarsest level between what is done every so many of the finest, when all are in step. */
+static int steps_between(const mpm *m, int every)
 {
     const int steps = every / level_steps(m, 0);
-    return m->steps % (uint64_t)(steps > 1 ? steps : 1) == 0;
+    return steps > 1 ? steps : 1;
+}
+
+static bool is_due(const mpm *m, int every)
+{
+    return m->steps % (uint64_t)steps_between(m, every) == 0;
+}
+
+/* A body at a time, since pressure may jump where two are welded. */
+static void relax_pressures(mpm *m)
+{
+    const double time = steps_between(m, RELAX_EVERY) * m->dt_last;
+    loop_runs to_look;
+    mpm_runs_of_bricks(&to_look, m);
+#pragma omp parallel num_threads(m->threads)
+    for (int i, end; mpm_runs_take(&to_look, omp_get_thread_num(), &i, &end);)
+        for (; i < end; i++) m->kernel->relax_look(m, &m->bricks[i]);
+    for (int nth = 0; nth < m->most_bodies; nth++) {
+        loop_runs to_sum, to_bound, to_relax;
+        mpm_runs_of_bricks(&to_sum, m), mpm_runs_of_bricks(&to_bound, m), mpm_runs_of_bricks(&to_relax, m);
+#pragma omp parallel num_threads(m->threads)
+        {
+            const int t = omp_get_thread_num();
+            for (int i, end; mpm_runs_take(&to_sum, t, &i, &end);)
+                for (; i < end; i++) m->kernel->relax_sums(m, &m->bricks[i], nth);
+#pragma omp barrier
+            for (int i, end; mpm_runs_take(&to_bound, t, &i, &end);)
+                for (; i < end; i++) m->kernel->relax(m, &m->bricks[i], nth, time, true);
+#pragma omp barrier
+            for (int i, end; mpm_runs_take(&to_relax, t, &i, &end);)
+                for (; i < end; i++) m->kernel->relax(m, &m->bricks[i], nth, time, false);
+        }
+    }
 }
 
 /* The point with the most energy, of motion and heat, by mass. */
@@ -714,6 +748,7 @@ static status one_step(mpm *m, double until)
     const double longest = sum.rate > 0 ? m->scene.courant / sum.rate : wanted;
     m->dt = fmin(longest, DT_GROWTH * wanted);
     TRY(check_step(m, longest));
+    if (is_due(m, RELAX_EVERY) && m->scene.basis == MPM_BASIS_GIMP) relax_pressures(m);
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
     if (is_due(m, MPM_CAVITY_EVERY)) mpm_cavities_look(m);
     if (m->blocks_scattered > (m->blocks_capacity - m->blocks_free) / SCATTERED) TRY(mpm_store_compact(m));

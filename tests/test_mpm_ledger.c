@@ -29,7 +29,7 @@ static mpm_ledger run(const mpm_scene *s, const char *name)
     /* heat is heat: all three grow, and together they are part of what the bodies hold; the start is cold, e = 0 */
     assert_true(l.heat_friction > 0 && l.heat_transfer > 0 && l.heat_viscous > 0);
     assert_below(l.heat_friction + l.heat_transfer + l.heat_viscous, l.internal + l.ejected_energy);
-    assert_true(mpm_body_state(m, 0).peak_plastic_strain > 0.3); /* it did plough */
+    assert_true(mpm_body_state(m, 0).peak_plastic_strain > 0.2); /* it did plough */
     mpm_free(m);
     return l;
 }

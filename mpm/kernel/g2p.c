@@ -7,7 +7,6 @@
  *   part)   */
 #include "mpm/kernel/kernels.h"
 #include "mpm/law/law_lanes.h"
-#include "mpm/law/relax_lanes.h"
 
 #include <math.h>
 #include <string.h>
@@ -234,8 +233,7 @@ LANE_INLINE vd work_of_wave(const block *q, int lane, const vd face[3], const st
 /* A run of blocks of one body, in a cell: what their kernels need to know, and what is booked of them. */
 typedef struct {
     int body;
-    bool flows; /* does a point of the cell yield, or has it no shear strength? */
-    bool near;  /* may other groups' points give to nodes of this cell, as points of its level do? */
+    bool near; /* may other groups' points give to nodes of this cell, as points of its level do? */
     step_of step;
     books books;
 } block_run;
@@ -381,7 +379,7 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         const vd work = wave ? work_of_wave(q, lane, face, &run->step, &run->books) : vd_set(0);
         sum.work_external = move(q, lane, &r, face, &run->step);
         if (wave) sum.work_external += work;
-        run->flows |= law_step(k, f, &run->step, &moved, q, lane, run->near, &sum);
+        law_step(k, f, &run->step, &moved, q, lane, run->near, &sum);
         prefetch_share(&next);
         book(&run->books, q, lane, &sum);
         find_bad(&b->sum, q, lane, sum.rate, index);
@@ -403,47 +401,6 @@ BLOCK_KERNEL(solid_block, LAW_SOLID)
 typedef int block_kernel(mpm *, brick *, int, const cell_grid *, const cell_limits *, const cell_nodes, block_run *);
 static block_kernel *const block_kernels[LAW_KERNELS] = { fluid_block, metal_block, solid_block };
 
-/* A body's blocks in a cell, of which `first` is the first of the cell's chain; in a welded group other bodies' may lie
- * between them. */
-static __attribute__((noinline)) void relax_blocks(mpm *m, int first, const step_of *step)
-{
-    const int body = m->links[first].body;
-    const law *k = &m->laws[body];
-#define PARTS_OF_BLOCKS                                 \
-    for (int i = first; i >= 0; i = m->links[i].next)   \
-        for (int lane = 0; lane < LANES; lane += WIDTH) \
-            if (m->links[i].body == body && !part_is_empty(m->links[i].mask, lane))
-    const law_form f = law_form_of(k, k->kernel);
-    const double sound = k->sound * fmax(step->inv_h[0], fmax(step->inv_h[1], step->inv_h[2]));
-    relax_sums sum = { .least = vd_set(HUGE_VAL), .most = vd_set(-HUGE_VAL), .softest = vd_set(HUGE_VAL) };
-    PARTS_OF_BLOCKS relax_sum(k, f, &m->blocks[i], lane, &sum);
-    const double softest = -vd_largest(-sum.softest);
-    if (!(vd_largest(sum.most) + vd_largest(-sum.least) > RELAX_BOUND * softest)) return;
-    const double room = vd_sum(sum.room);
-    relaxation by = { .dt = step->dt, .share = fmin(1, step->dt * sound), .P = vd_sum(sum.push) / room };
-    PARTS_OF_BLOCKS relax_give(k, f, &by, &m->blocks[i], lane, &sum);
-    by.S = vd_sum(sum.excess) / room;
-    /* no volume is more than halved: dust among dense points is soft */
-    const double most = vd_largest(-sum.lowest) + fmax(by.S, 0) / softest;
-    if (most > 0.5) by.share *= 0.5 / most, by.S *= 0.5 / most;
-    PARTS_OF_BLOCKS relax(k, f, &by, &m->blocks[i], lane);
-#undef PARTS_OF_BLOCKS
-}
-
-static bool is_first_of_body(const mpm *m, int head, int index)
-{
-    int i = head;
-    while (m->links[i].body != m->links[index].body) i = m->links[i].next;
-    return i == index;
-}
-
-static void relax_cell(mpm *m, const brick *b, int cell, const step_of *step)
-{
-    for (int i = b->head[cell]; i >= 0; i = m->links[i].next)
-        if (m->laws[m->links[i].body].kernel != LAW_FLUID && is_first_of_body(m, b->head[cell], i))
-            relax_blocks(m, i, step);
-}
-
 static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const halo_nodes halo, block_run *run)
 {
     cell_grid g;
@@ -453,12 +410,11 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
     cell_nodes nodes;
     gather_cell(halo, halo_index(cell), nodes);
     set_cell(&run->step, &g);
-    run->flows = false;
     for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
         const int body = m->links[i].body;
         if (body != run->body) {
             add_books(&b->sum, run, &peaks_of_thread(m, b->movers_thread)[run->body]);
-            *run = (block_run){ .body = body, .flows = run->flows, .near = run->near, .step = step_for(m, b, body) };
+            *run = (block_run){ .body = body, .near = run->near, .step = step_for(m, b, body) };
             set_cell(&run->step, &g);
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
@@ -469,7 +425,6 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
         else
             b->sum.stranded = true;
     }
-    if (run->flows) relax_cell(m, b, cell, &run->step);
 }
 
 /* ---- sleep ----

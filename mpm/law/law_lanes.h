@@ -336,9 +336,8 @@ LANE_INLINE void fluid_step(const law *k, law_form f, const step_of *step, const
 
 /* A solid, which may melt or fail.  The stress power is the mean of its values at the start and at the end of the step,
  * each with its own velocity gradient and volume.  Pressure and energy are solved together.  Tension of loose points,
- * and the tension at which a point spalls, is removed before the energy is computed.  Returns whether a point yields or
- * has no shear strength. */
-LANE_INLINE bool solid_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
+ * and the tension at which a point spalls, is removed before the energy is computed. */
+LANE_INLINE void solid_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
                             bool contact, lane_sums *sum)
 {
     const vd zero = vd_set(0), one = vd_set(1), *L = move->middle, tr = trace(L);
@@ -380,16 +379,17 @@ LANE_INLINE bool solid_step(const law *k, law_form f, const step_of *step, const
         r.T += k->chi * y.mises * y.plastic * r.volume * k->inv_c;
     sum->mises_square = y.mises_square;
     step_store(step, tr, &r, q, lane, sum);
-    return y.any || vm_bits(loose | parted);
 }
 
 /* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  `contact`: the flow
- * stress is needed even where nothing flows.  `f`: law_form_of(k, k->kernel).  Returns what solid_step() does. */
-LANE_INLINE bool law_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
+ * stress is needed even where nothing flows.  `f`: law_form_of(k, k->kernel). */
+LANE_INLINE void law_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
                           bool contact, lane_sums *sum)
 {
-    if (f.shear == MPM_SHEAR_NONE) return fluid_step(k, f, step, move, q, lane, sum), false;
-    return solid_step(k, f, step, move, q, lane, contact, sum);
+    if (f.shear == MPM_SHEAR_NONE)
+        fluid_step(k, f, step, move, q, lane, sum);
+    else
+        solid_step(k, f, step, move, q, lane, contact, sum);
 }
 
 #endif

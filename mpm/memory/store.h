@@ -138,6 +138,7 @@ typedef struct {
     bool fresh;                  /* points have come from another level since the last look (refine/merge.c) */
     int still;                   /* steps since a node of its points was not slow, up to BRICK_ASLEEP (g2p.c) */
     double still_rate;           /* sum.rate of the last of them [1/s] */
+    bool uneven, relaxes;        /* has points to relax; it or one beside it does (relax.c) */
     bool given;                  /* `out` holds what its points give as they are */
     bool contact;                /* another group has points here or next door */
     uint64_t occupied, meets;    /* bit c: cell c has points; it may share nodes with another group */
@@ -176,7 +177,7 @@ typedef struct body_tops body_tops;
 typedef struct kernels kernels;
 
 typedef struct {
-    int first;               /* body */
+    int first, bodies;       /* body of the lowest number; how many it has */
     bool passes[MPM_FACES];  /* mpm_body.passes */
     bool held;               /* mpm_body.held */
     bool arrives[MPM_FACES]; /* an end that holds what it acts on, and that the group did not begin at: it touches it */
@@ -231,6 +232,7 @@ struct mpm {
     grids grids;
     int groups;
     group_info *group;             /* [groups] */
+    int most_bodies;               /* of any group */
     bool arrivals;                 /* has any of them an end that it arrives at? */
     struct face_depths *depths;    /* grid/face_depth.h; NULL: one group alone */
     touch_rule *rule;              /* [1 + scene.pairs] the first for two groups that no pair names */
@@ -290,6 +292,11 @@ struct kernels {
     void (*touch)(mpm *m, int site, int thread); /* contacts at the nodes that groups share, after those of all sites */
     size_t (*node_bytes)(int groups);            /* of scratch memory, for a thread and that many groups at a site */
     void (*g2p)(mpm *m, brick *b, int thread);
+    /* brick.uneven; then of the bodies with number `nth` of their groups sums of what is there, sums of what is to be
+     * lost, and the loss, `time` after the last. */
+    void (*relax_look)(mpm *m, brick *b);
+    void (*relax_sums)(mpm *m, brick *b, int nth);
+    void (*relax)(mpm *m, brick *b, int nth, double time, bool sums);
 };
 
 /* The kernels named (NULL or "" = mpm_instruction_set()); NULL if this machine cannot run them. */
