@@ -6,7 +6,7 @@
 /* A scene that ends at its second gauge, 28 radii of way: the class is that of the growth, beyond its scatter or not.
  */
 #define GAUGED                                                                                                   \
-    TINY " --set particle.radius='0.2 mm' --set scene.velocity='2 km/s' --set scene.cells_per_radius=1.2 --set " \
+    TINY " --set particle.radius='0.2 mm' --set scene.velocity='2.4 km/s' --set scene.cells_per_radius=1.2 --set " \
          "scene.coarse_cell='1.2 mm' --set scene.levels=3 --set "                                                \
          "scene.end_time='3.4 us' "
 
@@ -14,7 +14,7 @@ static void test_gauged(void **state)
 {
     (void)state;
     fresh_folder("scene");
-    const double gauge = 28 * 0.2e-3 / 2000.0;
+    const double gauge = 28 * 0.2e-3 / 2400.0;
     const char *const scatter[] = { "0", "10" };
     for (int i = 0; i < 2; i++) {
         char command[1500];
@@ -32,7 +32,7 @@ static void test_gauged(void **state)
         assert_text(a, "class", i ? "undecided" : tear_drop ? "gouge" : "scratch");
         assert_true(number(a, "gauge_length_over_width") == number(a, "length_over_width"));
         /* what tells furrow from tear-drop, of the crater as it was then */
-        assert_true(fabs(number(a, "growth_per_way") / (growth / 2000.0) - 1.0) < 1e-9);
+        assert_true(fabs(number(a, "growth_per_way") / (growth / 2400.0) - 1.0) < 1e-9);
         assert_true(number(a, "front_speed_ratio") > 0.1 && number(a, "front_speed_ratio") < 1.2);
         assert_true(
             fabs(number(a, "length_over_width") * number(a, "crater_width") / number(a, "crater_length") - 1.0) < 1e-9);
