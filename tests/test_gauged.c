@@ -5,9 +5,9 @@
 
 /* A scene that ends at its second gauge, 28 radii of way: the class is that of the growth, beyond its scatter or not.
  */
-#define GAUGED                                                                                                   \
+#define GAUGED                                                                                                     \
     TINY " --set particle.radius='0.2 mm' --set scene.velocity='2.4 km/s' --set scene.cells_per_radius=1.2 --set " \
-         "scene.coarse_cell='1.2 mm' --set scene.levels=3 --set "                                                \
+         "scene.coarse_cell='1.2 mm' --set scene.levels=3 --set "                                                  \
          "scene.end_time='3.4 us' "
 
 static void test_gauged(void **state)
