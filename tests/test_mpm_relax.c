@@ -214,7 +214,8 @@ static void test_dust(void **state)
     int i = 0;
     EACH_POINT(solver, n, l)
     {
-        const bool dust = i % 3 == 0, dense = i++ % 3 == 1;
+        const bool dust = i % 16 == 0, dense = i % 8 > 1;
+        i++;
         for (int k = 0; k < 2; k++) {
             mpm *s = k ? was : solver;
             set_point(s, n, l, dust ? 0.3 : dense ? 1.7 : 1.001, dense ? 1e6 : 0);
@@ -230,7 +231,7 @@ static void test_dust(void **state)
         most = fmax(most, fabs(p->rho[0][l] / q->rho[0][l] - 1));
     }
     print_message("largest change of a volume: %.3f\n", most);
-    assert_true(most > 0.005 && most <= RELAX_MOST);
+    assert_true(most > 0.005 && most < 0.1); /* 0.21 without that bound, which is a safe one */
     mpm_free(solver), mpm_free(was);
 }
 
