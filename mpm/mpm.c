@@ -670,31 +670,22 @@ static bool is_due(const mpm *m, int every)
     return m->steps % (uint64_t)steps_between(m, every) == 0;
 }
 
+static void relax_bricks(mpm *m, relax_pass pass, int nth, double time)
+{
+    loop_runs bricks;
+    mpm_runs_of_bricks(&bricks, m);
+#pragma omp parallel num_threads(m->threads)
+    for (int i, end; mpm_runs_take(&bricks, omp_get_thread_num(), &i, &end);)
+        for (; i < end; i++) m->kernel->relax(m, &m->bricks[i], pass, nth, time);
+}
+
 /* A body at a time, since pressure may jump where two are welded. */
 static void relax_pressures(mpm *m)
 {
     const double time = steps_between(m, RELAX_EVERY) * m->dt_last;
-    loop_runs to_look;
-    mpm_runs_of_bricks(&to_look, m);
-#pragma omp parallel num_threads(m->threads)
-    for (int i, end; mpm_runs_take(&to_look, omp_get_thread_num(), &i, &end);)
-        for (; i < end; i++) m->kernel->relax_look(m, &m->bricks[i]);
-    for (int nth = 0; nth < m->most_bodies; nth++) {
-        loop_runs to_sum, to_bound, to_relax;
-        mpm_runs_of_bricks(&to_sum, m), mpm_runs_of_bricks(&to_bound, m), mpm_runs_of_bricks(&to_relax, m);
-#pragma omp parallel num_threads(m->threads)
-        {
-            const int t = omp_get_thread_num();
-            for (int i, end; mpm_runs_take(&to_sum, t, &i, &end);)
-                for (; i < end; i++) m->kernel->relax_sums(m, &m->bricks[i], nth);
-#pragma omp barrier
-            for (int i, end; mpm_runs_take(&to_bound, t, &i, &end);)
-                for (; i < end; i++) m->kernel->relax(m, &m->bricks[i], nth, time, true);
-#pragma omp barrier
-            for (int i, end; mpm_runs_take(&to_relax, t, &i, &end);)
-                for (; i < end; i++) m->kernel->relax(m, &m->bricks[i], nth, time, false);
-        }
-    }
+    relax_bricks(m, RELAX_LOOK, 0, time);
+    for (int nth = 0; nth < m->most_bodies; nth++)
+        for (relax_pass pass = RELAX_SUMS; pass <= RELAX_POINTS; pass++) relax_bricks(m, pass, nth, time);
 }
 
 /* The point with the most energy, of motion and heat, by mass. */

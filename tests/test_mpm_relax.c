@@ -45,15 +45,16 @@ static double bulk_modulus(const law *k, double rho, double p)
     return rho * wave_speed_square(k, law_form_of(k, k->kernel), vd_set(1 / rho), vd_set(p), vd_set(0))[0];
 }
 
+static void relax_bricks(mpm *solver, relax_pass pass, int nth, double time)
+{
+    for (int i = 0; i < solver->bricks_used; i++) solver->kernel->relax(solver, &solver->bricks[i], pass, nth, time);
+}
+
 static void relax_once(mpm *solver, double time)
 {
-    for (int i = 0; i < solver->bricks_used; i++) solver->kernel->relax_look(solver, &solver->bricks[i]);
-    for (int nth = 0; nth < solver->most_bodies; nth++) {
-        for (int i = 0; i < solver->bricks_used; i++) solver->kernel->relax_sums(solver, &solver->bricks[i], nth);
-        for (int sums = 1; sums >= 0; sums--)
-            for (int i = 0; i < solver->bricks_used; i++)
-                solver->kernel->relax(solver, &solver->bricks[i], nth, time, sums);
-    }
+    relax_bricks(solver, RELAX_LOOK, 0, time);
+    for (int nth = 0; nth < solver->most_bodies; nth++)
+        for (relax_pass pass = RELAX_SUMS; pass <= RELAX_POINTS; pass++) relax_bricks(solver, pass, nth, time);
 }
 
 /* Elements of a body by number from the window's first, 16 each way. */

@@ -5,16 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define KERNELS_OF(isa)                                   \
-    void mpm_p2g_##isa(mpm *m, brick *b);                 \
-    void mpm_gather_##isa(mpm *m, int site);              \
-    void mpm_nodes_##isa(mpm *m, int site, int thread);   \
-    void mpm_touch_##isa(mpm *m, int site, int thread);   \
-    size_t mpm_node_bytes_##isa(int groups);              \
-    void mpm_g2p_##isa(mpm *m, brick *b, int thread);     \
-    void mpm_relax_look_##isa(mpm *m, brick *b);          \
-    void mpm_relax_sums_##isa(mpm *m, brick *b, int nth); \
-    void mpm_relax_##isa(mpm *m, brick *b, int nth, double time, bool sums);
+#define KERNELS_OF(isa)                                 \
+    void mpm_p2g_##isa(mpm *m, brick *b);               \
+    void mpm_gather_##isa(mpm *m, int site);            \
+    void mpm_nodes_##isa(mpm *m, int site, int thread); \
+    void mpm_touch_##isa(mpm *m, int site, int thread); \
+    size_t mpm_node_bytes_##isa(int groups);            \
+    void mpm_g2p_##isa(mpm *m, brick *b, int thread);   \
+    void mpm_relax_##isa(mpm *m, brick *b, relax_pass pass, int nth, double time);
 
 #ifdef BREECH_ISA_V4
 KERNELS_OF(v4)
@@ -26,15 +24,13 @@ KERNELS_OF(portable)
 
 static const kernels table[] = {
 #ifdef BREECH_ISA_V4
-    { "x86-64-v4", mpm_p2g_v4, mpm_gather_v4, mpm_nodes_v4, mpm_touch_v4, mpm_node_bytes_v4, mpm_g2p_v4,
-      mpm_relax_look_v4, mpm_relax_sums_v4, mpm_relax_v4 },
+    { "x86-64-v4", mpm_p2g_v4, mpm_gather_v4, mpm_nodes_v4, mpm_touch_v4, mpm_node_bytes_v4, mpm_g2p_v4, mpm_relax_v4 },
 #endif
 #ifdef BREECH_ISA_V3
-    { "x86-64-v3", mpm_p2g_v3, mpm_gather_v3, mpm_nodes_v3, mpm_touch_v3, mpm_node_bytes_v3, mpm_g2p_v3,
-      mpm_relax_look_v3, mpm_relax_sums_v3, mpm_relax_v3 },
+    { "x86-64-v3", mpm_p2g_v3, mpm_gather_v3, mpm_nodes_v3, mpm_touch_v3, mpm_node_bytes_v3, mpm_g2p_v3, mpm_relax_v3 },
 #endif
     { "portable", mpm_p2g_portable, mpm_gather_portable, mpm_nodes_portable, mpm_touch_portable,
-      mpm_node_bytes_portable, mpm_g2p_portable, mpm_relax_look_portable, mpm_relax_sums_portable, mpm_relax_portable },
+      mpm_node_bytes_portable, mpm_g2p_portable, mpm_relax_portable },
 };
 
 static bool runs_here(const char *name)

@@ -19,9 +19,7 @@ void ISA(nodes)(mpm *m, int site, int thread);
 void ISA(touch)(mpm *m, int site, int thread);
 size_t ISA(node_bytes)(int groups);
 void ISA(g2p)(mpm *m, brick *b, int thread);
-void ISA(relax_look)(mpm *m, brick *b);
-void ISA(relax_sums)(mpm *m, brick *b, int nth);
-void ISA(relax)(mpm *m, brick *b, int nth, double time, bool sums);
+void ISA(relax)(mpm *m, brick *b, relax_pass pass, int nth, double time);
 
 /* The two elements beside the node of a cell along each axis. */
 typedef struct {

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure relaxation (M-7): what the points of an element between nodes carry beyond their mean, which no node feels.
  *
- * In passes over the bricks: which have points to relax; sums of the points' parts in the eight elements around each
- * node; sums of what they are to lose; their loss.  The sums lie in brick.out, which the next step writes anew; bricks
- * at rest keep theirs, and take no part, nor do those with nothing to relax in or beside them. */
+ * In passes over the bricks (relax_pass).  The sums lie in brick.out, which the next step writes anew; bricks at rest
+ * keep theirs, and take no part, nor do those with nothing to relax in or beside them. */
 #include "mpm/kernel/kernels.h"
 #include "mpm/law/relax_lanes.h"
 
@@ -17,8 +16,8 @@ enum {
 
 /* Of a body's points in the cell of a node, their parts in the element of each octant. */
 typedef struct {
-    double room[OCTANTS], push[OCTANTS], excess[OCTANTS]; /* V/K, V p/K, V/K times what is lost [m3/Pa, m3, m3] */
-    double hardest, softest;                              /* largest |p|, largest 1/K [Pa, 1/Pa] */
+    double room[OCTANTS], push[OCTANTS], loss[OCTANTS]; /* V/K, V p/K, V/K times what is lost [m3/Pa, m3, m3] */
+    double hardest, softest;                            /* largest |p|, largest 1/K [Pa, 1/Pa] */
 } cell_sums;
 
 /* Of an element: sums of its octants, mean pressure; the share that is lost of what lies beyond it, and the mean of
@@ -63,12 +62,13 @@ static bool is_uneven(const mpm *m, const brick *b, int body)
     const law *k = &m->laws[body];
     const law_form f = law_form_of(k, k->kernel);
     const vd bound = vd_set(0.5 * RELAX_BOUND * k->K0), heat = vd_set(k->c_v * LITTLE);
+    const double start = start_heat(k, f);
     for (int cell = 0; cell < BRICK_CELLS; cell++)
         for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
             if (m->links[i].body != body) continue;
             const block *q = &m->blocks[i];
             for (int lane = 0; lane < LANES; lane += WIDTH) {
-                const vd p = vd_load(&q->p[0][lane]), e = vd_load(&q->e[0][lane]) - start_heat(k, f);
+                const vd p = vd_load(&q->p[0][lane]), e = vd_load(&q->e[0][lane]) - start;
                 const vd mu = vd_load(&q->rho[0][lane]) * k->volume0 - 1;
                 const vm apart = vd_less(bound, vd_max(p, -p)) | vd_less(heat, e - reference_energy(k, f, mu));
                 if (vm_bits(apart & vd_less(vd_set(0), vd_load(&q->mass[0][lane])))) return true;
@@ -77,7 +77,7 @@ static bool is_uneven(const mpm *m, const brick *b, int body)
     return false;
 }
 
-void ISA(relax_look)(mpm *m, brick *b)
+static void look(mpm *m, brick *b)
 {
     b->uneven = false;
     if (!moves(m, b)) return;
@@ -120,26 +120,60 @@ LANE_INLINE void parts_of(const mpm *m, const brick *b, const relaxed_cell *cell
     for (int o = 0; o < OCTANTS; o++) part[o] = side[0][o & 1] * side[1][o >> 1 & 1] * side[2][o >> 2];
 }
 
-/* Of the body's blocks in a cell, the first of which is `first`. */
-static void sum_cell(const mpm *m, const brick *b, const relaxed_cell *c, int body, int first, cell_sums *to)
+/* The points of a body in a cell, those of a part of a block at a time: `q` from `lane` on. */
+typedef struct {
+    const brick *b;
+    const relaxed_cell *cell;
+    int body, block;
+    const law *k;
+    law_form form;
+    double start_heat;
+    block *q;
+    int lane;
+    relaxing at;
+    vd part[OCTANTS], give; /* parts of their domains in the elements; V/K of those that take part */
+} points;
+
+static points points_of(const mpm *m, const brick *b, const relaxed_cell *cell, int body, int first)
 {
     const law *k = &m->laws[body];
     const law_form f = law_form_of(k, k->kernel);
+    return (points){ .b = b,
+                     .cell = cell,
+                     .body = body,
+                     .block = first,
+                     .k = k,
+                     .form = f,
+                     .start_heat = start_heat(k, f),
+                     .lane = -(int)WIDTH };
+}
+
+/* false: there are no more. */
+LANE_INLINE bool next_points(mpm *m, points *p)
+{
+    for (; p->block >= 0; p->block = m->links[p->block].next, p->lane = -(int)WIDTH) {
+        if (m->links[p->block].body != p->body) continue;
+        for (p->lane += WIDTH; p->lane < (int)LANES; p->lane += WIDTH) {
+            if (part_is_empty(m->links[p->block].mask, p->lane)) continue;
+            p->q = &m->blocks[p->block];
+            parts_of(m, p->b, p->cell, p->body, p->q, p->lane, p->part);
+            p->at = relaxing_of(p->k, p->form, p->start_heat, p->q, p->lane);
+            p->give = vd_where(p->at.takes_part, p->at.mass * p->at.volume / p->at.K);
+            return true;
+        }
+    }
+    return false;
+}
+
+static void sum_cell(mpm *m, points p, cell_sums *to)
+{
     vd room[OCTANTS], push[OCTANTS], hardest = vd_set(0), softest = vd_set(0);
     for (int o = 0; o < OCTANTS; o++) room[o] = push[o] = vd_set(0);
-    for (int i = first; i >= 0; i = m->links[i].next) {
-        if (m->links[i].body != body) continue;
-        const block *q = &m->blocks[i];
-        for (int lane = 0; lane < LANES; lane += WIDTH) {
-            if (part_is_empty(m->links[i].mask, lane)) continue;
-            vd part[OCTANTS];
-            parts_of(m, b, c, body, q, lane, part);
-            const relaxing r = relaxing_of(k, f, q, lane);
-            const vd give = vd_where(r.takes_part, r.mass * r.volume / r.K);
-            for (int o = 0; o < OCTANTS; o++) room[o] += part[o] * give, push[o] += part[o] * give * r.p;
-            hardest = vd_max(hardest, vd_where(r.takes_part, vd_max(r.p, -r.p)));
-            softest = vd_max(softest, vd_where(r.takes_part, 1 / r.K));
-        }
+    while (next_points(m, &p)) {
+        const relaxing *r = &p.at;
+        for (int o = 0; o < OCTANTS; o++) room[o] += p.part[o] * p.give, push[o] += p.part[o] * p.give * r->p;
+        hardest = vd_max(hardest, vd_where(r->takes_part, vd_max(r->p, -r->p)));
+        softest = vd_max(softest, vd_where(r->takes_part, 1 / r->K));
     }
     for (int o = 0; o < OCTANTS; o++) to->room[o] = vd_sum(room[o]), to->push[o] = vd_sum(push[o]);
     to->hardest = vd_largest(hardest), to->softest = vd_largest(softest);
@@ -153,33 +187,15 @@ static int first_block(const mpm *m, const brick *b, int cell, int body)
     return i;
 }
 
-void ISA(relax_sums)(mpm *m, brick *b, int nth)
-{
-    b->relaxes = moves(m, b) && near_uneven(m, b);
-    if (!b->relaxes) return;
-    const int body = nth_body(m, b, nth);
-    cell_sums *to = sums_of(b);
-    memset(to, 0, BRICK_CELLS * sizeof *to);
-    if (body < 0) return;
-    const brick_grid grid = brick_grid_at(m, b);
-    for (int cell = 0; cell < BRICK_CELLS; cell++) {
-        const int first = first_block(m, b, cell, body);
-        if (first < 0) continue;
-        relaxed_cell c;
-        cell_set(&c, m, b, &grid, cell);
-        sum_cell(m, b, &c, body, first, &to[cell]);
-    }
-}
-
-/* What the octants of the cell of node x, y, z of the brick's 6 x 6 x 6 add to elements; `excess`: that too. */
-static void add_cell(const cell_sums *from, int x, int y, int z, bool excess, brick_elements to)
+/* What the octants of the cell of node x, y, z of the brick's 6 x 6 x 6 add to elements; `losses`: those too. */
+static void add_cell(const cell_sums *from, int x, int y, int z, bool losses, brick_elements to)
 {
     for (int o = 0; o < OCTANTS; o++) {
         const int i = x - 1 + (o & 1), j = y - 1 + (o >> 1 & 1), k = z - 1 + (o >> 2);
         if (i < 0 || i >= ELEMENTS || j < 0 || j >= ELEMENTS || k < 0 || k >= ELEMENTS) continue;
         element *e = &to[k][j][i];
         e->room += from->room[o], e->push += from->push[o];
-        if (excess) e->mean += from->excess[o];
+        if (losses) e->mean += from->loss[o];
         e->hardest = fmax(e->hardest, from->hardest), e->softest = fmax(e->softest, from->softest);
     }
 }
@@ -195,8 +211,8 @@ static double least_size(const mpm *m, const brick *b, const int at[3])
     return size;
 }
 
-/* From the sums of the brick and those next door; with `excess`, has any of them something to lose? */
-static bool gather_elements(const mpm *m, const brick *b, const law *of, double time, bool excess, brick_elements to)
+/* From the sums of the brick and those next door; with `losses`, has any of them something to lose? */
+static bool gather_elements(const mpm *m, const brick *b, const law *of, double time, bool losses, brick_elements to)
 {
     bool lost = false;
     memset(to, 0, sizeof(brick_elements));
@@ -205,7 +221,7 @@ static bool gather_elements(const mpm *m, const brick *b, const law *of, double 
         const int there = b->neighbour[HALO_SIDE(x) + 3 * (HALO_SIDE(y) + 3 * HALO_SIDE(z))];
         if (there < 0 || !m->bricks[there].relaxes) continue;
         const int cell = cell_index((x + BRICK - 1) % BRICK, (y + BRICK - 1) % BRICK, (z + BRICK - 1) % BRICK);
-        add_cell(&sums_of(&m->bricks[there])[cell], x, y, z, excess, to);
+        add_cell(&sums_of(&m->bricks[there])[cell], x, y, z, losses, to);
     }
     for (int n = 0; n < ELEMENTS * ELEMENTS * ELEMENTS; n++) {
         const int at[3] = { n % ELEMENTS, n / ELEMENTS % ELEMENTS, n / (ELEMENTS * ELEMENTS) };
@@ -235,69 +251,59 @@ LANE_INLINE vd loss(const element *e, const relaxing *r)
     return e->share * (x - vd_min(vd_max(x, -bound), kept));
 }
 
-static void sum_excess(const mpm *m, const brick *b, const relaxed_cell *c, int body, int first,
-                       const element *in[OCTANTS], cell_sums *to)
+static void sum_losses(mpm *m, points p, const element *in[OCTANTS], cell_sums *to)
 {
-    const law *k = &m->laws[body];
-    const law_form f = law_form_of(k, k->kernel);
-    vd excess[OCTANTS];
-    for (int o = 0; o < OCTANTS; o++) excess[o] = vd_set(0);
-    for (int i = first; i >= 0; i = m->links[i].next) {
-        if (m->links[i].body != body) continue;
-        const block *q = &m->blocks[i];
-        for (int lane = 0; lane < LANES; lane += WIDTH) {
-            if (part_is_empty(m->links[i].mask, lane)) continue;
-            vd part[OCTANTS];
-            parts_of(m, b, c, body, q, lane, part);
-            const relaxing r = relaxing_of(k, f, q, lane);
-            const vd give = vd_where(r.takes_part, r.mass * r.volume / r.K);
-            for (int o = 0; o < OCTANTS; o++) excess[o] += part[o] * give * loss(in[o], &r);
-        }
-    }
-    for (int o = 0; o < OCTANTS; o++) to->excess[o] = vd_sum(excess[o]);
+    vd lost[OCTANTS];
+    for (int o = 0; o < OCTANTS; o++) lost[o] = vd_set(0);
+    while (next_points(m, &p))
+        for (int o = 0; o < OCTANTS; o++) lost[o] += p.part[o] * p.give * loss(in[o], &p.at);
+    for (int o = 0; o < OCTANTS; o++) to->loss[o] = vd_sum(lost[o]);
 }
 
 /* (M-7) */
-static void relax_cell(mpm *m, const brick *b, const relaxed_cell *c, int body, int first, const element *in[OCTANTS])
+static void relax_cell(mpm *m, points p, const element *in[OCTANTS])
 {
-    const law *k = &m->laws[body];
-    const law_form f = law_form_of(k, k->kernel);
-    for (int i = first; i >= 0; i = m->links[i].next) {
-        if (m->links[i].body != body) continue;
-        block *q = &m->blocks[i];
-        for (int lane = 0; lane < LANES; lane += WIDTH) {
-            if (part_is_empty(m->links[i].mask, lane)) continue;
-            vd part[OCTANTS], beyond = vd_set(0), power = vd_set(0);
-            parts_of(m, b, c, body, q, lane, part);
-            const relaxing r = relaxing_of(k, f, q, lane);
-            for (int o = 0; o < OCTANTS; o++) {
-                const vd d = part[o] * (loss(in[o], &r) - in[o]->mean);
-                beyond += d, power += in[o]->P * d;
-            }
-            const vd per = vd_where(r.takes_part, r.volume / r.K);
-            relax(k, f, level_dt_last(m, b->level), per * beyond, per * power, &r, q, lane);
+    while (next_points(m, &p)) {
+        vd beyond = vd_set(0), power = vd_set(0);
+        for (int o = 0; o < OCTANTS; o++) {
+            const vd d = p.part[o] * (loss(in[o], &p.at) - in[o]->mean);
+            beyond += d, power += in[o]->P * d;
         }
+        const vd per = vd_where(p.at.takes_part, p.at.volume / p.at.K);
+        relax(p.k, p.form, level_dt_last(m, p.b->level), per * beyond, per * power, &p.at, p.q, p.lane);
     }
 }
 
-void ISA(relax)(mpm *m, brick *b, int nth, double time, bool sums)
+static void one_body(mpm *m, brick *b, relax_pass pass, int body, double time)
 {
-    if (!b->relaxes) return;
-    const int body = nth_body(m, b, nth);
-    if (body < 0) return;
+    cell_sums *sums = sums_of(b);
     brick_elements all;
-    if (!gather_elements(m, b, &m->laws[body], time, !sums, all) && !sums) return;
+    const element *in[OCTANTS];
+    if (pass == RELAX_SUMS) memset(sums, 0, BRICK_CELLS * sizeof *sums);
+    if (body < 0) return;
+    if (pass != RELAX_SUMS && !gather_elements(m, b, &m->laws[body], time, pass == RELAX_POINTS, all) &&
+        pass == RELAX_POINTS)
+        return;
     const brick_grid grid = brick_grid_at(m, b);
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         const int first = first_block(m, b, cell, body);
         if (first < 0) continue;
-        const element *in[OCTANTS];
-        elements_of(all, cell, in);
         relaxed_cell c;
         cell_set(&c, m, b, &grid, cell);
-        if (sums)
-            sum_excess(m, b, &c, body, first, in, &sums_of(b)[cell]);
-        else
-            relax_cell(m, b, &c, body, first, in);
+        const points p = points_of(m, b, &c, body, first);
+        if (pass != RELAX_SUMS) elements_of(all, cell, in);
+        if (pass == RELAX_SUMS) sum_cell(m, p, &sums[cell]);
+        if (pass == RELAX_LOSSES) sum_losses(m, p, in, &sums[cell]);
+        if (pass == RELAX_POINTS) relax_cell(m, p, in);
     }
+}
+
+void ISA(relax)(mpm *m, brick *b, relax_pass pass, int nth, double time)
+{
+    if (pass == RELAX_LOOK) {
+        look(m, b);
+        return;
+    }
+    if (pass == RELAX_SUMS) b->relaxes = moves(m, b) && near_uneven(m, b);
+    if (b->relaxes) one_body(m, b, pass, nth_body(m, b, nth), time);
 }

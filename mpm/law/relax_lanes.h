@@ -17,10 +17,9 @@
 
 #include "mpm/law/law_lanes.h"
 
-/* Crossings of an element by sound in which what is lost decays by e, inverse [1]; greatest |dV/V| at a time. */
-#define RELAX_BOUND 0.1
-#define RELAX_RATE 0.3
-#define RELAX_MOST 0.3
+#define RELAX_BOUND 0.1 /* b/K; the front of a strong shock stays within it (test_mpm_probe: test_force) */
+#define RELAX_RATE 0.3  /* one over the crossings of an element by sound in which what is lost falls by e */
+#define RELAX_MOST 0.3  /* greatest |dV/V| at a time */
 
 typedef struct {
     vd mass, volume, p, K; /* [kg, m3/kg]; pressure without viscosity, bulk modulus [Pa] */
@@ -35,7 +34,7 @@ LANE_INLINE double start_heat(const law *k, law_form f)
     return k->e_start - reference_energy(k, f, vd_set(k->rho_start * k->volume0 - 1))[0];
 }
 
-LANE_INLINE relaxing relaxing_of(const law *k, law_form f, const block *q, int lane)
+LANE_INLINE relaxing relaxing_of(const law *k, law_form f, double start, const block *q, int lane)
 {
     const vd zero = vd_set(0), rho = vd_load(&q->rho[0][lane]);
     relaxing r = { .mass = vd_load(&q->mass[0][lane]), .volume = 1 / rho };
@@ -43,7 +42,7 @@ LANE_INLINE relaxing relaxing_of(const law *k, law_form f, const block *q, int l
                                         : vd_select(loose_points(k, q, lane), zero, vd_set(-HUGE_VAL));
     const vd mu = rho * k->volume0 - 1;
     const vd free = pressure(k, f, mu, rho, vd_load(&q->e[0][lane]), zero);
-    const vd cold = start_heat(k, f) + reference_energy(k, f, mu);
+    const vd cold = start + reference_energy(k, f, mu);
     r.p = vd_max(free, r.least);
     r.warm = vd_max(free - pressure(k, f, mu, rho, cold, zero), zero);
     r.K = rho * wave_speed_square(k, f, r.volume, r.p, zero);

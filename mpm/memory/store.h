@@ -284,6 +284,10 @@ struct mpm {
     mpm_refused refused; /* while it is made: what the check under way is of */
 };
 
+/* Passes of pressure relaxation over all bricks: brick.uneven; then a body of each group at a time sums of what its
+ * points have, sums of what they are to lose, and their loss (kernel/relax.c). */
+typedef enum { RELAX_LOOK, RELAX_SUMS, RELAX_LOSSES, RELAX_POINTS } relax_pass;
+
 struct kernels {
     const char *name;
     void (*p2g)(mpm *m, brick *b);
@@ -292,11 +296,8 @@ struct kernels {
     void (*touch)(mpm *m, int site, int thread); /* contacts at the nodes that groups share, after those of all sites */
     size_t (*node_bytes)(int groups);            /* of scratch memory, for a thread and that many groups at a site */
     void (*g2p)(mpm *m, brick *b, int thread);
-    /* brick.uneven; then of the bodies with number `nth` of their groups sums of what is there, sums of what is to be
-     * lost, and the loss, `time` after the last. */
-    void (*relax_look)(mpm *m, brick *b);
-    void (*relax_sums)(mpm *m, brick *b, int nth);
-    void (*relax)(mpm *m, brick *b, int nth, double time, bool sums);
+    /* A pass over a brick, of the body with number `nth` of its group; `time` since the last relaxation [s]. */
+    void (*relax)(mpm *m, brick *b, relax_pass pass, int nth, double time);
 };
 
 /* The kernels named (NULL or "" = mpm_instruction_set()); NULL if this machine cannot run them. */
