@@ -215,11 +215,11 @@ static void test_dust(void **state)
     int i = 0;
     EACH_POINT(solver, n, l)
     {
-        const bool dust = i % 16 == 0, dense = i % 8 > 1;
+        const bool dust = i % 16 == 0, dense = i % 32 != 1;
         i++;
         for (int k = 0; k < 2; k++) {
             mpm *s = k ? was : solver;
-            set_point(s, n, l, dust ? 0.3 : dense ? 1.7 : 1.001, dense ? 1e6 : 0);
+            set_point(s, n, l, dust ? 0.3 : dense ? 1.9 : 1.001, dense ? 4e6 : 0);
             if (dust) s->blocks[n].damage[0][l] = 1, s->blocks[n].p[0][l] = 0;
         }
     }
@@ -232,7 +232,7 @@ static void test_dust(void **state)
         most = fmax(most, fabs(p->rho[0][l] / q->rho[0][l] - 1));
     }
     print_message("largest change of a volume: %.3f\n", most);
-    assert_true(most > 0.005 && most < 0.1); /* 0.21 without that bound, which is a safe one */
+    assert_true(most > 0.02 && most <= RELAX_MOST); /* 0.75 without that bound */
     mpm_free(solver), mpm_free(was);
 }
 

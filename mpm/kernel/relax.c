@@ -17,13 +17,13 @@ enum {
 /* Of a body's points in the cell of a node, their parts in the element of each octant. */
 typedef struct {
     double room[OCTANTS], push[OCTANTS], loss[OCTANTS]; /* V/K, V p/K, V/K times what is lost [m3/Pa, m3, m3] */
-    double hardest, softest;                            /* largest |p|, largest 1/K [Pa, 1/Pa] */
+    double softest, largest;                            /* largest 1/K, largest |loss|/K [1/Pa, 1] */
 } cell_sums;
 
 /* Of an element: sums of its octants, mean pressure; the share that is lost of what lies beyond it, and the mean of
  * what is lost [Pa, 1, Pa]. */
 typedef struct {
-    double room, push, hardest, softest, P, share, mean;
+    double room, push, softest, largest, P, share, mean;
 } element;
 
 typedef element brick_elements[ELEMENTS][ELEMENTS][ELEMENTS]; /* by z, y, x */
@@ -167,16 +167,15 @@ LANE_INLINE bool next_points(mpm *m, points *p)
 
 static void sum_cell(mpm *m, points p, cell_sums *to)
 {
-    vd room[OCTANTS], push[OCTANTS], hardest = vd_set(0), softest = vd_set(0);
+    vd room[OCTANTS], push[OCTANTS], softest = vd_set(0);
     for (int o = 0; o < OCTANTS; o++) room[o] = push[o] = vd_set(0);
     while (next_points(m, &p)) {
         const relaxing *r = &p.at;
         for (int o = 0; o < OCTANTS; o++) room[o] += p.part[o] * p.give, push[o] += p.part[o] * p.give * r->p;
-        hardest = vd_max(hardest, vd_where(r->takes_part, vd_max(r->p, -r->p)));
         softest = vd_max(softest, vd_where(r->takes_part, 1 / r->K));
     }
     for (int o = 0; o < OCTANTS; o++) to->room[o] = vd_sum(room[o]), to->push[o] = vd_sum(push[o]);
-    to->hardest = vd_largest(hardest), to->softest = vd_largest(softest);
+    to->softest = vd_largest(softest);
 }
 
 /* The first block of the body in a cell, or -1. */
@@ -195,8 +194,8 @@ static void add_cell(const cell_sums *from, int x, int y, int z, bool losses, br
         if (i < 0 || i >= ELEMENTS || j < 0 || j >= ELEMENTS || k < 0 || k >= ELEMENTS) continue;
         element *e = &to[k][j][i];
         e->room += from->room[o], e->push += from->push[o];
-        if (losses) e->mean += from->loss[o];
-        e->hardest = fmax(e->hardest, from->hardest), e->softest = fmax(e->softest, from->softest);
+        if (losses) e->mean += from->loss[o], e->largest = fmax(e->largest, from->largest);
+        e->softest = fmax(e->softest, from->softest);
     }
 }
 
@@ -230,8 +229,8 @@ static bool gather_elements(const mpm *m, const brick *b, const law *of, double 
         lost = lost || e->mean != 0;
         e->P = e->push / e->room, e->mean /= e->room;
         e->share = -expm1(-RELAX_RATE * of->sound * time / least_size(m, b, at));
-        const double most = e->share * 2 * e->hardest * e->softest; /* |dV/V| */
-        if (most > RELAX_MOST) e->share *= RELAX_MOST / most;
+        const double most = e->largest + fabs(e->mean) * e->softest; /* |dV/V|: its own, and what it takes up */
+        if (most > RELAX_MOST) e->share *= RELAX_MOST / most, e->mean *= RELAX_MOST / most;
     }
     return lost;
 }
@@ -253,11 +252,16 @@ LANE_INLINE vd loss(const element *e, const relaxing *r)
 
 static void sum_losses(mpm *m, points p, const element *in[OCTANTS], cell_sums *to)
 {
-    vd lost[OCTANTS];
+    vd lost[OCTANTS], largest = vd_set(0);
     for (int o = 0; o < OCTANTS; o++) lost[o] = vd_set(0);
     while (next_points(m, &p))
-        for (int o = 0; o < OCTANTS; o++) lost[o] += p.part[o] * p.give * loss(in[o], &p.at);
+        for (int o = 0; o < OCTANTS; o++) {
+            const vd l = vd_where(p.at.takes_part, loss(in[o], &p.at));
+            lost[o] += p.part[o] * p.give * l;
+            largest = vd_max(largest, vd_max(l, -l) / p.at.K);
+        }
     for (int o = 0; o < OCTANTS; o++) to->loss[o] = vd_sum(lost[o]);
+    to->largest = vd_largest(largest);
 }
 
 /* (M-7) */
